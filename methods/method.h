@@ -1,0 +1,60 @@
+// How to draw: one technique with typed parameters. The harness owns clock, repetitions and stopping; a method never
+// measures itself beyond naming zones (classify, upload, raster, shade) on the Device.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "backends/device.h"
+#include "methods/parameters.h"
+#include "scenes/scene.h"
+
+namespace volumark {
+
+// What a method says of its own work, exact and repeatable: slices, polygons, vertices, samples, bytes ...
+using Counters = std::map<std::string, int64_t>;
+
+struct MethodInfo {
+  std::string name;   // snake_case
+  std::string title;  // one line
+  std::string paper;  // key in papers/, or a citation
+  std::vector<ParameterInfo> parameters;
+  std::vector<std::string> effects;  // that it can simulate
+  // Expected order of convergence along the quality axis on smooth fields with the given values; 0 = not stated.
+  double (*expected_order)(const Values&) = nullptr;
+};
+
+// A method made ready for one scene, one set of values and one Device. Dies before the Device.
+class PreparedMethod {
+ public:
+  virtual ~PreparedMethod() = default;
+  // Records the drawing of `view` into `target` (a colour target of target_format; cleared to 0 here): premultiplied,
+  // over transparent black. The caller submits.
+  virtual void render(const View& view, Device& device, Texture target) = 0;
+  virtual Counters counters() const = 0;  // of the last render
+};
+
+class Method {
+ public:
+  virtual ~Method() = default;
+  virtual const MethodInfo& info() const = 0;
+  // Why this cell cannot be drawn; nothing where it can. Effects and parameters are checked here, before any work.
+  // Called through unsupported_reason(), which also checks the effects against info().effects.
+  virtual std::optional<std::string> unsupported(const Scene& scene, const Values& values,
+                                                 const BackendInfo& backend) const = 0;
+  // Everything that does not depend on the view. `scene.volume` is loaded.
+  virtual std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const = 0;
+  virtual Format target_format(const Values& values) const = 0;
+};
+
+std::optional<std::string> unsupported_reason(const Method& method, const Scene& scene, const Values& values,
+                                              const BackendInfo& backend);
+
+// The one list of methods (methods/methods.cpp). Throws ParameterError for an unknown name, with the nearest one.
+std::span<const Method* const> method_list();
+const Method& find_method(const std::string& name);
+
+}  // namespace volumark

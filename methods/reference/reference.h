@@ -1,0 +1,40 @@
+// The high-precision image of a scene and view: every pixel's ray integrated in double precision, with an error bound
+// for each pixel. See shared/design accuracy notes: cells, monotone pieces, control points, moments of exp(-D).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scenes/image.h"
+#include "scenes/scene.h"
+
+namespace volumark {
+
+struct ReferenceOptions {
+  double tolerance = 1e-6;  // wanted bound of each channel of a pixel
+  int threads = 0;          // 0 = all; the image does not depend on it, bit for bit
+};
+
+struct Reference {
+  Image image;               // premultiplied, over transparent black
+  std::vector<float> bound;  // per pixel: largest error of any channel (rounding to float included)
+  double max_bound = 0;
+  bool estimate = false;     // normalised lighting: the bound is an error estimate (Gauss-Kronrod), not a proof
+  int64_t cells = 0, pieces = 0;
+};
+
+// Bumped whenever an image may change: part of the cache key.
+inline constexpr int kReferenceVersion = 1;
+
+Reference render_reference(const Scene& scene, const View& view, int width, int height,
+                           const ReferenceOptions& options = {});
+
+// One ray, for tests and probes: premultiplied rgba and its bound.
+struct RayIntegral {
+  double rgba[4];
+  double bound;
+};
+RayIntegral integrate_ray(const Scene& scene, const View& view, const Ray& ray, double tolerance = 1e-9);
+
+}  // namespace volumark

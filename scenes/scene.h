@@ -1,0 +1,111 @@
+// What to show: data, transfer function, views, lights and the effects that the scene calls for. An effect that is
+// absent here is not simulated. All colours are linear RGB; all angles in files are degrees, in these structs radians.
+#pragma once
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenes/volume.h"
+
+namespace volumark {
+
+// Post-classified continuous emission-absorption: extinction tau(s) [1 / world unit] and colour c(s) are piecewise
+// linear in the data value s, constant beyond the first and last point; the emission is tau c. Opacity of a segment of
+// length d is 1 - exp(-tau d). Two points at one value make a jump (the value there is the second point's).
+struct TransferPoint {
+  double value = 0;  // data units, non-decreasing
+  glm::dvec3 colour{0};
+  double extinction = 0;  // >= 0, finite
+};
+struct TransferFunction {
+  std::vector<TransferPoint> points;  // at least one
+  double lo = 0, hi = 1;              // lo < hi: the window, data units: what a table covers; s_n = (s - lo) / (hi - lo)
+  // (r, g, b, tau) at data value s.
+  glm::dvec4 at(double s) const;
+  double max_extinction() const;
+};
+
+struct Light {
+  enum class Kind { Directional, Point } kind = Kind::Directional;
+  glm::dvec3 vector{0, 0, 1};  // Directional: unit direction towards the light; Point: position in world space
+  glm::dvec3 colour{1};
+};
+
+// Blinn-Phong per sample, with g the central-difference gradient stored at samples (index differences clamped at the
+// border, divided by 2 spacing), interpolated trilinearly, normalised after interpolation; n = -g / |g| (0 where
+// |g| = 0: then only the ambient term). l: to the light, v: to the eye, h = (l + v) / |l + v|. Lit colour =
+// c (ambient + sum_i L_i diffuse max(0, n.l)) + sum_i L_i specular max(0, n.h)^shininess [n.l > 0];
+// two_sided: |n.l| and |n.h| instead of max(0, .), and the specular term always.
+struct Lighting {
+  double ambient = 0.2, diffuse = 0.8, specular = 0, shininess = 32;
+  bool two_sided = false;
+  std::vector<Light> lights;  // at least one
+};
+
+struct ClipPlane {
+  glm::dvec3 normal{0, 0, 1};  // unit
+  double distance = 0;         // keeps normal . p >= distance
+};
+
+struct Effects {
+  std::optional<Lighting> lighting;
+  std::vector<ClipPlane> clip_planes;  // empty: not simulated
+};
+// The names of those that are called for: "lighting", "clip_planes".
+std::vector<std::string> effect_names(const Effects& effects);
+
+struct View {
+  glm::dvec3 eye{0, 0, 1}, target{0}, up{0, 1, 0};
+  bool perspective = true;
+  double fov_y = 0.6;       // radians, perspective
+  double half_height = 1;   // world units, orthographic
+  double near = 0;          // world units from the eye along the view direction; samples nearer are cut away. > 0 in
+                            // perspective; orthographic: may be any value, the eye is on the plane of distance 0
+  std::string name;
+};
+
+// Orthonormal frame of a view: right, up, and forward (towards the target).
+struct ViewFrame {
+  glm::dvec3 right, up, forward;
+};
+ViewFrame frame_of(const View& view);
+
+// The ray through the centre of pixel (x, y) (row 0 on top): points origin + t direction, |direction| = 1, for t >=
+// t_near (where the near plane cuts it).
+struct Ray {
+  glm::dvec3 origin, direction;
+  double t_near;
+};
+Ray pixel_ray(const View& view, int width, int height, double x, double y);
+
+// World -> clip space with depth 0..1, NDC +y up; `far` > near in the same units as View::near.
+glm::dmat4 world_to_clip(const View& view, int width, int height, double far);
+
+struct DataSource {
+  std::string origin;    // "procedural", "file", "debian:PACKAGE"
+  std::string path;      // of the file read; empty for procedural data
+  std::string sha256;    // of that file
+  std::string licence;
+  std::string how_to_get;
+};
+
+struct Scene {
+  std::string name, title, description;
+  std::string path;  // of the scene file
+  std::string hash;  // sha256 over everything that decides its picture: the parsed scene, and the data's sha256
+  std::shared_ptr<const Volume> volume;  // null until load_data
+  DataSource source;
+  TransferFunction transfer;
+  std::vector<View> views;
+  int width = 512, height = 512;
+  glm::dvec3 background{0};
+  Effects effects;
+};
+
+}  // namespace volumark
