@@ -1,0 +1,310 @@
+// The results file: plain structs, one JSON text. All that tables, the HTML report and comparisons may know comes from
+// here, so that an old file can be reported again. Depends on nothing else of the house.
+// Seconds are stored, never frames per second. A number that is not finite is written as null, with its reason in
+// `nulls` of the result (JSON pointer inside that result -> "nan", "infinity" or "-infinity"); read_results restores
+// it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace volumark {
+
+inline constexpr const char* kResultsSchemaName = "volumark-results";
+inline constexpr int kResultsSchemaMajor = 1;
+inline constexpr const char* kResultsSchemaVersion = "1.0.0";
+
+// A file that cannot be read, written or understood: message with the path and, inside it, the JSON pointer.
+class ResultsError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+using ParamValue = std::variant<bool, int64_t, double, std::string>;
+using Params = std::map<std::string, ParamValue, std::less<>>;
+
+// ---- Of the whole run -----------------------------------------------------------------------------------------------
+
+struct RunInfo {
+  std::string id;                       // unique: start time and a hash
+  std::string started_at, finished_at;  // UTC, ISO 8601; finished_at is empty while it runs or when it was killed
+  std::vector<std::string> argv;
+  std::string order;  // how cells and repetitions were ordered, in words
+  int64_t seed = 0;   // of everything random in the run
+  bool interrupted = false;
+  int64_t resumed = 0;  // how often --resume went on with it
+};
+
+struct GitInfo {
+  std::string sha, branch, commit_date;
+  bool dirty = false;
+};
+
+struct BuildInfo {
+  std::string compiler, version, flags, type;  // "GNU", "12.2.0", "-O3 ...", "Release"
+};
+
+struct MachineInfo {
+  std::string cpu, os, hypervisor;  // hypervisor: empty on bare metal
+  int64_t cores = 0, ram_bytes = 0;
+  std::array<double, 3> load_before{}, load_after{};  // 1, 5, 15 minutes
+  std::map<std::string, std::string> env;             // variables that change drivers or threads, where set
+};
+
+struct BackendResultInfo {
+  std::string id, api, vendor, renderer, version, driver, llvm;
+  int64_t simd_bits = 0, threads = 0;
+  bool software = true;  // never ranked against hardware
+  std::map<std::string, std::string> env;
+  std::vector<std::string> capabilities, workarounds;
+};
+
+struct SceneResultInfo {
+  std::string name, title, description, hash;
+  std::array<int64_t, 3> voxels{};
+  std::string voxel_type, licence, origin;
+  std::vector<std::string> effects, views;  // views: names, in the scene's order
+  std::array<double, 3> background{};       // linear RGB; images are drawn over it
+};
+
+struct ParameterResultInfo {
+  std::string name, unit, doc;
+  bool quality_axis = false;
+};
+
+struct MethodResultInfo {
+  std::string name, title, paper;
+  std::vector<ParameterResultInfo> parameters;
+};
+
+struct ExperimentResultInfo {
+  std::string name, title, description;
+  std::map<std::string, double> limits;  // metric -> worst allowed value (rmse, max, flip_p99, bias, parity)
+};
+
+// A published check value of a metric against what this build computes.
+struct SelfTestRow {
+  std::string metric, name, source;
+  double expected = 0, measured = 0, tolerance = 0;
+  bool ok = false;
+};
+
+// ---- Of one cell ----------------------------------------------------------------------------------------------------
+
+enum class Outcome { Ok, Unsupported, Failed, Timeout, WrongImage };
+const char* to_string(Outcome outcome);  // ok, unsupported, failed, timeout, wrong_image
+
+struct CellKey {
+  std::string experiment, scene, method, backend;
+  Params params;  // every parameter of the method; with the others it alone identifies a series
+  friend bool operator==(const CellKey&, const CellKey&) = default;
+};
+
+struct Quality {
+  std::string parameter;  // the method's quality axis; empty: it has none
+  double value = 0;
+};
+
+struct Stats {
+  int64_t count = 0;
+  double median = 0, p5 = 0, p95 = 0, mean = 0, min = 0, max = 0;
+  double median_lo = 0, median_hi = 0;  // bootstrap interval of the median, 95 %
+};
+
+struct Metric {
+  std::string unit = "s", better = "less";  // better: less or more
+  std::vector<double> samples;              // in measured order; the first frame is not among them
+  std::vector<int64_t> views;               // view index of each sample
+  std::optional<double> first;              // of the first frame after prepare (compilation, allocation)
+  Stats stats;
+};
+
+struct PrepareCost {
+  double wall = 0, cpu = 0;             // seconds
+  std::map<std::string, double> zones;  // seconds
+};
+
+struct PeakBytes {
+  int64_t device = 0;   // largest sum of buffers and textures alive on the Device
+  int64_t process = 0;  // peak resident set of the process so far
+  int64_t voxels = 0;   // bytes of the scene's voxels, for comparison
+  int64_t target = 0;   // bytes of the colour target
+};
+
+struct Timing {
+  std::string stopped;               // "precision", "budget" or "count": why sampling ended
+  double precision = 0, budget = 0;  // wanted relative width of the median's interval; seconds allowed
+};
+
+struct Metrics {
+  Metric frame_wall, frame_cpu;         // of every view measured
+  std::map<std::string, Metric> zones;  // frame zones, seconds
+  PrepareCost prepare;
+  std::map<std::string, double> counters;  // mean over the views; exact values are in each view
+  PeakBytes peak_bytes;
+  Timing timing;
+};
+
+struct ImageFile {
+  std::string path;  // relative to the results file
+  std::string sha256;
+  int64_t width = 0, height = 0;
+  std::string colourspace;  // "linear", "srgb"; "data" for maps
+  std::string preview;      // an 8-bit PNG of the same picture, relative path; empty where there is none
+};
+
+struct ReferenceInfo {
+  std::string id;         // the cache key
+  std::string sha256;     // of the pixels
+  double bound = 0;       // largest error bound of any channel of any pixel
+  bool estimate = false;  // the bound is an estimate, not a proof
+};
+
+struct RegionError {
+  int64_t pixels = 0;
+  double rmse = 0, max = 0, mae = 0;
+};
+
+// On linear float RGB over the scene's background (alpha apart), test against reference. measurement of each: see the
+// metrics' own documentation. `worst` of a cell takes the worst of each metric over the views, so its numbers may come
+// from different views.
+struct ErrorMetrics {
+  int64_t non_finite = 0;  // pixels of the test image with NaN or infinity; the other numbers leave them out
+  double mae = 0, rmse = 0, max = 0;
+  int64_t max_x = 0, max_y = 0;
+  double psnr = 0;                                   // infinity where equal
+  std::array<double, 3> bias{};                      // signed mean of test - reference, R G B
+  double p50 = 0, p95 = 0, p99 = 0, over_1_255 = 0;  // of the largest channel error of a pixel; fraction above 1/255
+  double ssim = 1;
+  double flip_mean = 0, flip_p99 = 0, flip_max = 0;
+  double ciede2000_mean = 0, ciede2000_p99 = 0;
+  double alpha_rmse = 0, alpha_max = 0;
+  std::map<std::string, RegionError> regions;  // silhouette, grazing, interior, background
+};
+
+struct ViewResult {
+  int64_t index = 0;  // in the scene
+  std::string name;
+  std::optional<Stats> frame_wall, frame_cpu;  // of this view alone; absent where it was not timed
+  std::map<std::string, int64_t> counters;     // exact
+  std::optional<ReferenceInfo> reference;
+  std::optional<ErrorMetrics> error;
+  bool at_bound = false;  // the largest error is below the reference's bound: no ranking below it
+  // Kept where the experiment keeps images.
+  std::optional<ImageFile> rendered, reference_image, difference, flip;
+};
+
+struct CellError {
+  ErrorMetrics worst, mean;  // of each metric over the views
+};
+
+struct OrderInfo {
+  double expected = 0;           // 0: not stated
+  std::optional<double> fitted;  // of the series that this cell belongs to
+};
+
+struct PaperCell {
+  std::string key, table, cell, unit, rule;
+  double published = 0;
+};
+
+struct Result {
+  CellKey key;
+  std::string case_version;  // hash of scene, parameters, views, size and reference: an edited case is a new series
+  Outcome outcome = Outcome::Failed;
+  std::string reason;  // of every outcome but ok
+  std::vector<std::string> effects;
+  int64_t width = 0, height = 0;
+  std::optional<Quality> quality;
+  std::optional<Metrics> metrics;  // absent where nothing was drawn
+  std::vector<ViewResult> views;
+  std::optional<CellError> error;  // absent where there is no reference or no image
+  OrderInfo order;
+  std::optional<PaperCell> paper;
+  std::string command;  // runs this cell again
+  std::string finished_at;
+};
+
+// ---- Over cells -----------------------------------------------------------------------------------------------------
+
+// The error (RMSE, worst view) along the quality axis: error ~ step^order, fitted where it still falls.
+struct Convergence {
+  CellKey key;  // without the quality parameter in params
+  std::string parameter;
+  std::vector<double> values, errors;  // coarse to fine
+  int64_t fitted_points = 0;           // 0: no fit possible
+  double fitted = 0, fitted_lo = 0, fitted_hi = 0, expected = 0;
+  double floor = 0;     // smallest error reached; 0: still falling
+  std::string verdict;  // "pass", "fail", "not stated" or "not resolved", with the reason after it in `reason`
+  std::string reason;
+};
+
+// The same cell on two backends, compared pixel by pixel in the interior.
+struct Parity {
+  CellKey key;  // backend is the first
+  std::string other;
+  int64_t view = 0;
+  int64_t pixels = 0;  // compared
+  double max = 0, rmse = 0, limit = 0;
+  bool ok = false;
+};
+
+struct Claim {
+  std::string id, text, rule, verdict, reason;  // verdict: holds, fails, unknown
+  double measured = 0, expected = 0;
+};
+
+struct Results {
+  std::string schema_name = kResultsSchemaName, schema_version = kResultsSchemaVersion;
+  RunInfo run;
+  GitInfo git;
+  BuildInfo build;
+  MachineInfo machine;
+  std::vector<BackendResultInfo> backends;
+  std::vector<ExperimentResultInfo> experiments;
+  std::vector<SceneResultInfo> scenes;
+  std::vector<MethodResultInfo> methods;
+  std::vector<Result> results;
+  std::vector<Convergence> convergence;
+  std::vector<Parity> parity;
+  std::vector<Claim> claims;
+  std::vector<SelfTestRow> self_test;
+};
+
+// ---- Text -----------------------------------------------------------------------------------------------------------
+
+nlohmann::json to_json(const Results& results);
+nlohmann::json to_json(const Result& result);  // one line of the journal
+// Throw ResultsError: another schema name, an unknown major version, a missing key or a wrong type (with its pointer).
+// Keys that this version does not know are left out: a newer minor version can be read.
+Results results_from_json(const nlohmann::json& json);
+Result result_from_json(const nlohmann::json& json);
+
+// `path`: the file, or the folder that holds results.json.
+Results read_results(const std::filesystem::path& path);
+// Written to a temporary file beside it, synced, then renamed: the old file stays until the new one is whole.
+void write_results(const Results& results, const std::filesystem::path& file);
+
+// Any text, in the same way; throws ResultsError (unwritable folder, disk full) and leaves no temporary file.
+void write_file_atomically(const std::filesystem::path& file, std::string_view content);
+
+// ---- Schema ---------------------------------------------------------------------------------------------------------
+
+struct SchemaFault {
+  std::string pointer;  // into the file that was checked
+  std::string message;
+};
+// The text of results.schema.json (JSON Schema 2020-12), compiled in.
+const char* results_schema_text();
+// Every violation of the schema; empty where the file is valid.
+std::vector<SchemaFault> validate_results(const nlohmann::json& json);
+
+}  // namespace volumark
