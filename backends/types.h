@@ -43,7 +43,7 @@ struct Sampler {
 
 struct BufferDesc {
   std::string label;
-  size_t size = 0;               // bytes, > 0
+  size_t size = 0;                  // bytes, > 0
   std::span<const std::byte> data;  // empty (contents are then zero), or exactly `size` bytes
 };
 
@@ -100,7 +100,16 @@ enum class Topology : uint8_t { Points, Lines, Triangles, TriangleStrip };
 // Over: back to front, premultiplied: C = S + (1 - Sa) D. Under: front to back: C = D + (1 - Da) S. Add: C = D + S.
 enum class Blend : uint8_t { Opaque, Over, Under, Add };
 enum class Compare : uint8_t { Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always };
-enum class StencilOp : uint8_t { Keep, Zero, Replace, IncrementClamp, DecrementClamp, Invert, IncrementWrap, DecrementWrap };
+enum class StencilOp : uint8_t {
+  Keep,
+  Zero,
+  Replace,
+  IncrementClamp,
+  DecrementClamp,
+  Invert,
+  IncrementWrap,
+  DecrementWrap
+};
 enum class Cull : uint8_t { None, Front, Back };
 
 struct StencilFace {
@@ -167,9 +176,7 @@ inline Binding bind_storage(uint32_t slot, Buffer buffer, size_t offset = 0, siz
 inline Binding bind_sampled(uint32_t slot, Texture texture, Sampler sampler = {}) {
   return {slot, BindingKind::Sampled, {}, 0, 0, texture, sampler};
 }
-inline Binding bind_image(uint32_t slot, Texture texture) {
-  return {slot, BindingKind::Image, {}, 0, 0, texture, {}};
-}
+inline Binding bind_image(uint32_t slot, Texture texture) { return {slot, BindingKind::Image, {}, 0, 0, texture, {}}; }
 
 struct DrawDesc {
   Pipeline pipeline;
