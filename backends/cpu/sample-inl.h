@@ -1,0 +1,288 @@
+// Textures on SIMD lanes for CPU twins, per instruction set (include inside a foreach_target file). GLSL semantics:
+// texel centres at (i + .5) / n, missing channels read 0 and alpha 1, border is transparent black.
+//
+// How a twin is laid out (methods/x/x_cpu.cpp; one file, compiled once an instruction set by foreach_target):
+//
+//   #include "methods/x/x_cpu.h"                 // declares `extern const CpuProgram x_cpu;`
+//   #include "backends/cpu/highway_targets.h"    // before anything of Highway
+//   #undef HWY_TARGET_INCLUDE
+//   #define HWY_TARGET_INCLUDE "methods/x/x_cpu.cpp"
+//   #include <hwy/foreach_target.h>              // includes this file again for every target
+//   #include <hwy/highway.h>
+//   #include "backends/cpu/sample-inl.h"
+//   HWY_BEFORE_NAMESPACE();
+//   namespace volumark {
+//   namespace HWY_NAMESPACE {
+//   namespace {
+//   template <bool lit> void shade(const CpuBindings& bindings, FragmentBatch& batch) {
+//     const FloatTag d;
+//     const CpuTexture& volume = bindings.textures[1];
+//     for_lanes(batch.count, [&](size_t i) HWY_ATTR {        // lambdas: HWY_ATTR before the brace
+//       const Floats value = sample_3d_red(volume, load(batch.varyings[0] + i), load(batch.varyings[1] + i), ...);
+//       store_rgba(batch, i, sample_1d(bindings.textures[2], value));
+//     });
+//   }
+//   CpuKernels specialise(std::span<const int32_t> constants) {
+//     return {.vertex = vertex, .fragment = constants[0] ? shade<true> : shade<false>, .varyings = 3};
+//   }
+//   }  // namespace
+//   }  // namespace HWY_NAMESPACE
+//   }  // namespace volumark
+//   HWY_AFTER_NAMESPACE();
+//   #if HWY_ONCE
+//   namespace volumark {
+//   HWY_EXPORT(specialise);
+//   const CpuProgram x_cpu{"x", [](std::span<const int32_t> c) { return HWY_DYNAMIC_DISPATCH(specialise)(c); }};
+//   }  // namespace volumark
+//   #endif
+//
+// The lanes past batch.count up to the next multiple of the vector length are readable and writable: no masked tails.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "backends/cpu/cpu_program.h"
+#include "backends/cpu/texel.h"
+
+#if defined(VOLUMARK_CPU_SAMPLE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOLUMARK_CPU_SAMPLE_INL_H_
+#undef VOLUMARK_CPU_SAMPLE_INL_H_
+#else
+#define VOLUMARK_CPU_SAMPLE_INL_H_
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace volumark {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatTag = HWY_CAPPED(float, 16);
+using IntTag = hn::RebindToSigned<FloatTag>;
+using Floats = hn::Vec<FloatTag>;
+using Ints = hn::Vec<IntTag>;
+using FloatMask = hn::Mask<FloatTag>;
+inline constexpr size_t kMaxLanes = 16;
+
+struct Rgba {
+  Floats r, g, b, a;
+};
+
+// ---- Loops over a batch ---------------------------------------------------------------------------------------------
+
+HWY_INLINE Floats load(const float* aligned) { return hn::Load(FloatTag(), aligned); }
+HWY_INLINE void store(Floats value, float* aligned) { hn::Store(value, FloatTag(), aligned); }
+HWY_INLINE Floats splat(float value) { return hn::Set(FloatTag(), value); }
+
+// body(i) for i = 0, lanes, 2 lanes, ... below count.
+template <class Body>
+HWY_INLINE void for_lanes(size_t count, const Body& body) {
+  for (size_t i = 0; i < count; i += hn::Lanes(FloatTag())) {
+    body(i);
+  }
+}
+
+HWY_INLINE void store_rgba(FragmentBatch& batch, size_t i, const Rgba& colour) {
+  store(colour.r, batch.rgba[0] + i);
+  store(colour.g, batch.rgba[1] + i);
+  store(colour.b, batch.rgba[2] + i);
+  store(colour.a, batch.rgba[3] + i);
+}
+
+// Sets batch.discard where `dropped` holds; lanes past the end of the batch are left alone.
+HWY_INLINE void store_discard(FragmentBatch& batch, size_t i, FloatMask dropped) {
+  const FloatTag d;
+  alignas(64) float flag[kMaxLanes];
+  hn::Store(hn::IfThenElseZero(dropped, hn::Set(d, 1.0F)), d, flag);
+  const size_t end = std::min(hn::Lanes(d), batch.count - i);
+  for (size_t lane = 0; lane < end; ++lane) {
+    batch.discard[i + lane] |= static_cast<uint8_t>(flag[lane] != 0);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace volumark
+HWY_AFTER_NAMESPACE();
+
+#include "backends/cpu/volume-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace volumark {
+namespace HWY_NAMESPACE {
+
+// ---- texelFetch -----------------------------------------------------------------------------------------------------
+
+// Texels at `offset` (in texels from data); lanes where `inside` is false get transparent black (alpha 1 in formats
+// without alpha) and are not read.
+HWY_INLINE Rgba fetch_texels(const CpuTexture& texture, Ints offset, FloatMask inside) {
+  const FloatTag d;
+  const IntTag di;
+  alignas(64) int32_t at[kMaxLanes];
+  alignas(64) float channel[4][kMaxLanes];
+  hn::Store(hn::IfThenElseZero(hn::RebindMask(di, inside), offset), di, at);
+  decode_texels(texture, at, hn::Lanes(d), channel[0], channel[1], channel[2], channel[3]);
+  const Floats missing = hn::Set(d, has_alpha(texture.format) ? 0.0F : 1.0F);
+  return {hn::IfThenElseZero(inside, hn::Load(d, channel[0])), hn::IfThenElseZero(inside, hn::Load(d, channel[1])),
+          hn::IfThenElseZero(inside, hn::Load(d, channel[2])),
+          hn::IfThenElse(inside, hn::Load(d, channel[3]), missing)};
+}
+
+// texelFetch; integer coordinates outside the texture read its border value.
+HWY_INLINE Rgba texel_fetch(const CpuTexture& texture, Ints x, Ints y, Ints z) {
+  const FloatTag d;
+  const IntTag di;
+  const auto in = [&](Ints i, int n)
+                      HWY_ATTR { return hn::And(hn::Gt(i, hn::Set(di, -1)), hn::Lt(i, hn::Set(di, n))); };
+  const auto inside = hn::And(in(x, texture.width), hn::And(in(y, texture.height), in(z, texture.depth)));
+  const Ints offset = hn::Add(x, hn::Add(hn::Mul(y, hn::Set(di, static_cast<int32_t>(texture.row_stride))),
+                                         hn::Mul(z, hn::Set(di, static_cast<int32_t>(texture.slice_stride)))));
+  return fetch_texels(texture, offset, hn::RebindMask(d, inside));
+}
+HWY_INLINE Rgba texel_fetch(const CpuTexture& texture, Ints x, Ints y) {
+  return texel_fetch(texture, x, y, hn::Zero(IntTag()));
+}
+
+// ---- texture() ------------------------------------------------------------------------------------------------------
+
+// The one or two texels along an axis and the weight of the second.
+struct AxisCell {
+  Ints i0, i1;
+  Floats t;
+};
+
+HWY_INLINE AxisCell axis_cell(const Sampler& sampler, Floats coordinate, int extent) {
+  const FloatTag d;
+  const IntTag di;
+  const Floats n = hn::Set(d, static_cast<float>(extent));
+  const Ints last = hn::Set(di, extent - 1);
+  const Ints zero = hn::Zero(di);
+  Floats u = coordinate;
+  if (sampler.wrap == Wrap::Repeat) {
+    u = hn::Sub(u, hn::Floor(u));
+  }
+  Floats at = hn::Mul(u, n);
+  if (sampler.filter == Filter::Linear) {
+    at = hn::Sub(at, hn::Set(d, 0.5F));
+  }
+  // One texel outside on either side is enough to tell; keeps the conversion in range (NaN becomes -1).
+  at = hn::Min(hn::Max(at, hn::Set(d, -1.0F)), n);
+  const Floats floor = hn::Floor(at);
+  Ints i0 = hn::ConvertTo(di, floor);
+  Ints i1 = sampler.filter == Filter::Linear ? hn::Add(i0, hn::Set(di, 1)) : i0;
+  if (sampler.wrap == Wrap::Repeat) {
+    i0 = hn::IfThenElse(hn::Lt(i0, zero), last, i0);
+    i0 = hn::IfThenElse(hn::Gt(i0, last), zero, i0);
+    i1 = hn::IfThenElse(hn::Gt(i1, last), zero, i1);
+    i1 = hn::Max(i1, zero);
+  } else if (sampler.wrap == Wrap::Clamp) {
+    i0 = hn::Min(hn::Max(i0, zero), last);
+    i1 = hn::Min(hn::Max(i1, zero), last);
+  }
+  return {i0, i1, hn::Sub(at, floor)};
+}
+
+HWY_INLINE Rgba lerp(const Rgba& a, const Rgba& b, Floats t) {
+  return {lerp(a.r, b.r, t), lerp(a.g, b.g, t), lerp(a.b, b.b, t), lerp(a.a, b.a, t)};
+}
+
+// Any format, filter and wrap; correct first. Axes past the texture's dimension are not looked at.
+HWY_INLINE Rgba sample_any(const CpuTexture& texture, Floats u, Floats v, Floats w) {
+  const Ints zero = hn::Zero(IntTag());
+  const Sampler& s = texture.sampler;
+  const bool linear = s.filter == Filter::Linear;
+  const AxisCell none{zero, zero, hn::Zero(FloatTag())};
+  const AxisCell x = axis_cell(s, u, texture.width);
+  const AxisCell y = texture.dimension > 1 ? axis_cell(s, v, texture.height) : none;
+  const AxisCell z = texture.dimension > 2 ? axis_cell(s, w, texture.depth) : none;
+  const auto row = [&](Ints iy, Ints iz) HWY_ATTR {
+    const Rgba first = texel_fetch(texture, x.i0, iy, iz);
+    return linear ? lerp(first, texel_fetch(texture, x.i1, iy, iz), x.t) : first;
+  };
+  const auto plane = [&](Ints iz) HWY_ATTR {
+    const Rgba first = row(y.i0, iz);
+    return linear && texture.dimension > 1 ? lerp(first, row(y.i1, iz), y.t) : first;
+  };
+  const Rgba first = plane(z.i0);
+  return linear && texture.dimension > 2 ? lerp(first, plane(z.i1), z.t) : first;
+}
+
+// A function of its own: the generic path is large, and kernels call it from several places.
+HWY_NOINLINE inline void sample_any_into(const CpuTexture& texture, const float* uvw, float* rgba) {
+  const Rgba c = sample_any(texture, load(uvw), load(uvw + kMaxLanes), load(uvw + 2 * kMaxLanes));
+  store(c.r, rgba);
+  store(c.g, rgba + kMaxLanes);
+  store(c.b, rgba + 2 * kMaxLanes);
+  store(c.a, rgba + 3 * kMaxLanes);
+}
+
+HWY_INLINE Rgba sample_generic(const CpuTexture& texture, Floats u, Floats v, Floats w) {
+  alignas(64) float uvw[3 * kMaxLanes], rgba[4 * kMaxLanes];
+  store(u, uvw);
+  store(v, uvw + kMaxLanes);
+  store(w, uvw + 2 * kMaxLanes);
+  sample_any_into(texture, uvw, rgba);
+  return {load(rgba), load(rgba + kMaxLanes), load(rgba + 2 * kMaxLanes), load(rgba + 3 * kMaxLanes)};
+}
+
+HWY_INLINE Rgba sample_2d(const CpuTexture& texture, Floats u, Floats v) {
+  return sample_generic(texture, u, v, hn::Zero(FloatTag()));
+}
+HWY_INLINE Rgba sample_3d(const CpuTexture& texture, Floats u, Floats v, Floats w) {
+  return sample_generic(texture, u, v, w);
+}
+
+// texture(volume, uvw).r: the fast path where the texture allows it. A kernel that knows the format calls
+// sample_volume<format>() (volume-inl.h) and saves the branches.
+HWY_INLINE Floats sample_3d_red(const CpuTexture& texture, Floats u, Floats v, Floats w) {
+  if (fits_volume_view(texture)) {
+    const VolumeView view = volume_view(texture);
+    switch (texture.format) {
+      case Format::R8:
+        return sample_volume<Format::R8>(view, u, v, w);
+      case Format::R16:
+        return sample_volume<Format::R16>(view, u, v, w);
+      default:
+        return sample_volume<Format::R32F>(view, u, v, w);
+    }
+  }
+  return sample_generic(texture, u, v, w).r;
+}
+
+// ---- Tables of RGBA32F entries (transfer functions) -----------------------------------------------------------------
+
+// Entries `index` of a tight array of RGBA float quadruples: one 128-bit load a lane, then a transpose.
+HWY_INLINE Rgba load_entries(const float* entries, Ints index) {
+  const IntTag di;
+  const FloatTag d;
+  const hn::Full128<float> d4;
+  alignas(64) int32_t at[kMaxLanes];
+  alignas(64) float quad[4 * kMaxLanes];
+  hn::Store(index, di, at);
+  for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    hn::Store(hn::LoadU(d4, entries + 4 * static_cast<ptrdiff_t>(at[lane])), d4, quad + 4 * lane);
+  }
+  Floats r, g, b, a;
+  hn::LoadInterleaved4(d, quad, r, g, b, a);
+  return {r, g, b, a};
+}
+
+// texture(sampler1D, u): linear and clamped RGBA32F tables by entry, everything else generic.
+HWY_INLINE Rgba sample_1d(const CpuTexture& texture, Floats u) {
+  if (texture.format == Format::RGBA32F && texture.sampler == Sampler{Filter::Linear, Wrap::Clamp}) {
+    const FloatTag d;
+    const IntTag di;
+    const auto* entries = reinterpret_cast<const float*>(texture.data);
+    const Floats n = hn::Set(d, static_cast<float>(texture.width));
+    const Floats at = hn::Min(hn::Max(hn::MulSub(u, n, hn::Set(d, 0.5F)), hn::Zero(d)), hn::Sub(n, splat(1.0F)));
+    const Ints i = hn::ConvertTo(di, at);
+    // The entry past the last one is padding that repeats the edge.
+    return lerp(load_entries(entries, i), load_entries(entries + 4, i), hn::Sub(at, hn::ConvertTo(d, i)));
+  }
+  const Floats zero = hn::Zero(FloatTag());
+  return sample_generic(texture, u, zero, zero);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace volumark
+HWY_AFTER_NAMESPACE();
+
+#endif
