@@ -34,6 +34,7 @@ layout(std140, binding = 0) uniform VolumeUniforms {
   vec4 eye;             // local frame; w: 1 perspective, 0 orthographic
   vec4 forward;         // local frame, unit
   vec4 lighting;        // ambient, diffuse, specular, shininess
+  vec4 counts;          // lights, clip planes, 1 with specular, 1 two-sided: what the constants say, for the CPU twin
   vec4 own[4];          // free for the method
   vec4 clip_planes[16]; // box coordinates: keeps dot(xyz, box) >= w
   VolumeLight lights[64];
@@ -114,19 +115,23 @@ vec4 transfer_segment(float front, float back) {
                  texelFetch(preintegrated_table, i + ivec2(1, 1), 0), f.x), f.y);
 }
 
-// (1 - exp(-x)) / x for x >= 0 without cancellation: opacity per optical depth.
-float opacity_ratio(float x) {
-  if (VM_LINEAR_OPACITY == 1) return 1. / max(x, 1.);
-  if (x < .125) return 1. - x * (.5 - x * (1. / 6. - x * (1. / 24. - x * (1. / 120.))));
-  return (1. - exp(-x)) / x;
+// Opacity of optical depth x >= 0: 1 - exp(-x) with full relative accuracy for small x (an expm1: GLSL has none).
+// x = k ln 2 - r with |r| <= ln 2 / 2, and 1 - 2^-k e^r = (1 - 2^-k) - 2^-k (e^r - 1).
+float opacity_of(float x) {
+  if (VM_LINEAR_OPACITY == 1) return min(x, 1.);
+  float y = min(x, 80.);
+  float k = floor(y * 1.44269504 + .5);
+  float r = (k * .693359375 - y) - k * 2.12194440e-4;
+  float e = r * (1. + r * (1. / 2. + r * (1. / 6. + r * (1. / 24. + r * (1. / 120. + r * (1. / 720. + r * (1. / 5040.)))))));
+  float p = intBitsToFloat((127 - int(k)) << 23);
+  return (1. - p) - p * e;
 }
 
 // Opacity of a segment that is `ratio` voxels long where one voxel has opacity a: 1 - (1 - a)^ratio.
 float correct_opacity(float a, float ratio) {
   float depth = a < .1 ? a * (1. + a * (1. / 2. + a * (1. / 3. + a * (1. / 4. + a * (1. / 5. + a * (1. / 6.))))))
                        : -log(max(1. - a, 1e-30));
-  float x = depth * ratio;
-  return x * opacity_ratio(x);
+  return opacity_of(depth * ratio);
 }
 
 // ---- Lighting (scenes/scene.h) ----
@@ -159,8 +164,7 @@ void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
 // ---- A segment of a ray: premultiplied colour and opacity ----
 // Of constant colour and extinction (r, g, b, tau), `len` world units long, lit at `box`.
 vec4 shade_segment(vec4 point, float len, vec3 box) {
-  float x = point.a * len;
-  float alpha = x * opacity_ratio(x);
+  float alpha = opacity_of(point.a * len);
   vec3 colour = point.rgb;
   if (VM_LIGHTS > 0) {
     if (alpha <= 0.) return vec4(0.);
@@ -174,9 +178,8 @@ vec4 shade_segment(vec4 point, float len, vec3 box) {
 // The same for a pre-integrated segment: mean emission and extinction of transfer_segment.
 vec4 shade_preintegrated(vec4 mean, float len, vec3 box) {
   float x = mean.a * len;
-  float weight = len * opacity_ratio(x);
-  vec3 colour = mean.rgb * weight;
-  float alpha = mean.a * weight;
+  float alpha = opacity_of(x);
+  vec3 colour = mean.rgb * (x > 1e-30 ? alpha / mean.a : len);
   if (VM_LIGHTS > 0) {
     if (alpha <= 0.) return vec4(0.);
     vec3 diffuse, specular;

@@ -35,6 +35,7 @@ struct VolumeUniforms {
   Float4 eye{};
   Float4 forward{};
   Float4 lighting{};
+  Float4 counts{};
   Float4 own[4]{};
   Float4 clip_planes[kMaxClipPlanes]{};
   VolumeLight lights[kMaxLights]{};
@@ -44,10 +45,10 @@ static_assert(offsetof(VolumeUniforms, depth) == 96);
 static_assert(offsetof(VolumeUniforms, extent) == 112);
 static_assert(offsetof(VolumeUniforms, value) == 192);
 static_assert(offsetof(VolumeUniforms, lighting) == 256);
-static_assert(offsetof(VolumeUniforms, own) == 272);
-static_assert(offsetof(VolumeUniforms, clip_planes) == 336);
-static_assert(offsetof(VolumeUniforms, lights) == 592);
-static_assert(sizeof(VolumeUniforms) == 592 + kMaxLights * 32);
+static_assert(offsetof(VolumeUniforms, own) == 288);
+static_assert(offsetof(VolumeUniforms, clip_planes) == 352);
+static_assert(offsetof(VolumeUniforms, lights) == 608);
+static_assert(sizeof(VolumeUniforms) == 608 + kMaxLights * 32);
 
 // The rays of a view in double precision: P(z) = origin + z * direction in local coordinates (the volume's own axes,
 // world units, origin at the middle of the box), both affine in NDC. z is depth along `forward` from the reference
