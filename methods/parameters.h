@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "scenes/nearest.h"
+
 namespace volumark {
 
 using Value = std::variant<bool, int64_t, double, std::string>;
@@ -93,8 +95,5 @@ void set_value(std::span<const ParameterInfo> parameters, Values& values, const 
 void set_value(std::span<const ParameterInfo> parameters, Values& values, const std::string& name,
                const nlohmann::json& value);
 std::string to_string(const Value& value);
-
-// The candidate closest to `name` by edit distance; empty where none is near. For "did you mean ...".
-std::string nearest_name(const std::string& name, std::span<const std::string> candidates);
 
 }  // namespace volumark
