@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -173,20 +174,20 @@ struct RegionError {
   double rmse = 0, max = 0, mae = 0;
 };
 
-// On linear float RGB over the scene's background (alpha apart), test against reference. measurement of each: see the
-// metrics' own documentation. `worst` of a cell takes the worst of each metric over the views, so its numbers may come
-// from different views.
+// On linear float RGB over the scene's background (alpha apart), test against reference. `worst` of a cell takes the
+// worst of each metric over the views, so its numbers may come from different views.
 struct ErrorMetrics {
-  int64_t non_finite = 0;  // pixels of the test image with NaN or infinity; the other numbers leave them out
+  int64_t pixels = 0;      // compared
+  int64_t non_finite = 0;  // pixels with NaN or infinity; the other numbers leave them out
   double mae = 0, rmse = 0, max = 0;
-  int64_t max_x = 0, max_y = 0;
+  int64_t max_x = -1, max_y = -1;                    // where `max` is; -1: nowhere
   double psnr = 0;                                   // infinity where equal
   std::array<double, 3> bias{};                      // signed mean of test - reference, R G B
   double p50 = 0, p95 = 0, p99 = 0, over_1_255 = 0;  // of the largest channel error of a pixel; fraction above 1/255
-  double ssim = 1;
-  double flip_mean = 0, flip_p99 = 0, flip_max = 0;
+  double ssim = 1;                                   // NaN for images below 11 x 11
+  double flip_mean = 0, flip_p99 = 0;
   double ciede2000_mean = 0, ciede2000_p99 = 0;
-  double alpha_rmse = 0, alpha_max = 0;
+  double alpha_mae = 0, alpha_rmse = 0, alpha_max = 0;
   std::map<std::string, RegionError> regions;  // silhouette, grazing, interior, background
 };
 
@@ -247,13 +248,17 @@ struct Convergence {
   std::string reason;
 };
 
-// The same cell on two backends, compared pixel by pixel in the interior.
-struct Parity {
-  CellKey key;  // backend is the first
-  std::string other;
+// The same cell on two backends, pixel by pixel: the largest difference of the four premultiplied channels, apart for
+// interior pixels and those at a silhouette.
+struct ParityRow {
+  CellKey key;        // backend is the first
+  std::string other;  // the second backend
   int64_t view = 0;
-  int64_t pixels = 0;  // compared
-  double max = 0, rmse = 0, limit = 0;
+  int64_t interior_pixels = 0, interior_over = 0;  // over: those above `limit`
+  double interior_max = 0;
+  int64_t silhouette_pixels = 0, silhouette_over = 0;
+  double silhouette_max = 0;
+  double limit = 0;
   bool ok = false;
 };
 
@@ -274,7 +279,7 @@ struct Results {
   std::vector<MethodResultInfo> methods;
   std::vector<Result> results;
   std::vector<Convergence> convergence;
-  std::vector<Parity> parity;
+  std::vector<ParityRow> parity;
   std::vector<Claim> claims;
   std::vector<SelfTestRow> self_test;
 };
