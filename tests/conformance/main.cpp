@@ -1,0 +1,44 @@
+// conformance --backend=gl|vulkan|cpu [--gl-platform=egl] [--vk-device=NAME] [GoogleTest flags]
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <string_view>
+
+#include "tests/conformance/fixture.h"
+
+namespace volumark::conformance {
+namespace {
+std::string backend;
+DeviceOptions options;
+
+bool take(std::string_view argument, std::string_view flag, std::string& into) {
+  if (!argument.starts_with(flag)) return false;
+  into = argument.substr(flag.size());
+  return true;
+}
+}  // namespace
+
+const std::string& backend_id() { return backend; }
+DeviceOptions device_options() { return options; }
+
+int run(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i];
+    if (take(argument, "--backend=", backend) || take(argument, "--gl-platform=", options.gl_platform) ||
+        take(argument, "--vk-device=", options.vk_device)) {
+      continue;
+    }
+    std::fprintf(stderr, "unknown argument %s\n", argv[i]);
+    return 2;
+  }
+  if (backend.empty() && !GTEST_FLAG_GET(list_tests)) {
+    std::fprintf(stderr, "--backend=gl, vulkan or cpu is wanted\n");
+    return 2;
+  }
+  options.validation = backend == "vulkan";
+  return RUN_ALL_TESTS();
+}
+}  // namespace volumark::conformance
+
+int main(int argc, char** argv) { return volumark::conformance::run(argc, argv); }
