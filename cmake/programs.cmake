@@ -13,7 +13,7 @@ function(vm_programs target)
     get_filename_component(ext ${file} LAST_EXT)
     string(SUBSTRING ${ext} 1 -1 stage)
     set(name ${base}_${stage})
-    set(parts ${CMAKE_SOURCE_DIR}/backends/common.glsl)
+    set(parts ${VM_ROOT}/backends/common.glsl)
     foreach(common ${A_COMMON})
       get_filename_component(path ${common} ABSOLUTE)
       list(APPEND parts ${path})
@@ -23,8 +23,8 @@ function(vm_programs target)
     add_custom_command(
       OUTPUT ${out}/${name}.cpp ${out}/${name}.h
       COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DSTAGE=${stage} -DOUT=${out} "-DPARTS=${parts}"
-              -DVALIDATOR=${GLSLANG_VALIDATOR} -P ${CMAKE_SOURCE_DIR}/cmake/embed_program.cmake
-      DEPENDS ${parts} ${CMAKE_SOURCE_DIR}/cmake/embed_program.cmake
+              -DVALIDATOR=${GLSLANG_VALIDATOR} -P ${VM_ROOT}/cmake/embed_program.cmake
+      DEPENDS ${parts} ${VM_ROOT}/cmake/embed_program.cmake
       COMMENT "GLSL ${name}"
       VERBATIM)
     target_sources(${target} PRIVATE ${out}/${name}.cpp ${out}/${name}.h)

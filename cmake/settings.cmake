@@ -1,4 +1,5 @@
 # Language, warnings and the one function that declares a library of the house.
+get_filename_component(VM_ROOT ${CMAKE_CURRENT_LIST_DIR}/.. ABSOLUTE)
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -18,7 +19,7 @@ find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 
 add_library(vm_settings INTERFACE)
-target_include_directories(vm_settings INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/generated)
+target_include_directories(vm_settings INTERFACE ${VM_ROOT} ${CMAKE_BINARY_DIR}/generated)
 target_compile_options(vm_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
                                              -Woverloaded-virtual)
 if(VM_WERROR)
