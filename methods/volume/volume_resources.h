@@ -59,6 +59,7 @@ class VolumeResources {
   void create_volume(const Scene& scene, const VolumeSettings& settings);
   void create_classified_volume(const Scene& scene, const VolumeSettings& settings);
   Texture create(const TextureDesc& desc);
+  void release();
 
   Device& device_;
   Texture volume_, transfer_, preintegrated_;
