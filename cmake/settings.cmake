@@ -21,7 +21,9 @@ find_package(PkgConfig REQUIRED)
 add_library(vm_settings INTERFACE)
 target_include_directories(vm_settings INTERFACE ${VM_ROOT} ${CMAKE_BINARY_DIR}/generated)
 target_compile_options(vm_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wold-style-cast
-                                             -Woverloaded-virtual)
+                                             -Woverloaded-virtual
+                                             # descriptors are written with designated initialisers
+                                             -Wno-missing-field-initializers)
 if(VM_WERROR)
   target_compile_options(vm_settings INTERFACE -Werror)
 endif()
@@ -35,3 +37,15 @@ function(vm_library name)
   add_library(${name} STATIC ${A_SOURCES})
   target_link_libraries(${name} PUBLIC vm_settings ${A_LINK} PRIVATE ${A_PRIVATE_LINK})
 endfunction()
+
+set(VM_SANITIZE "" CACHE STRING "Sanitizers for -fsanitize=, comma separated")
+if(VM_SANITIZE)
+  target_compile_options(vm_settings INTERFACE -fsanitize=${VM_SANITIZE} -fno-omit-frame-pointer
+                                               -fno-sanitize-recover=undefined)
+  target_link_options(vm_settings INTERFACE -fsanitize=${VM_SANITIZE})
+endif()
+option(VM_COVERAGE "Instrument for gcov" OFF)
+if(VM_COVERAGE)
+  target_compile_options(vm_settings INTERFACE --coverage)
+  target_link_options(vm_settings INTERFACE --coverage)
+endif()
