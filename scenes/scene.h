@@ -15,6 +15,8 @@
 
 namespace volumark {
 
+struct ScenePlan;  // scenes/scene_plan.h: what load_data has yet to do
+
 // Post-classified continuous emission-absorption: extinction tau(s) [1 / world unit] and colour c(s) are piecewise
 // linear in the data value s, constant beyond the first and last point; the emission is tau c. Opacity of a segment of
 // length d is 1 - exp(-tau d). Two points at one value make a jump (the value there is the second point's).
@@ -25,7 +27,7 @@ struct TransferPoint {
 };
 struct TransferFunction {
   std::vector<TransferPoint> points;  // at least one
-  double lo = 0, hi = 1;              // lo < hi: the window, data units: what a table covers; s_n = (s - lo) / (hi - lo)
+  double lo = 0, hi = 1;  // lo < hi: the window, data units: what a table covers; s_n = (s - lo) / (hi - lo)
   // (r, g, b, tau) at data value s.
   glm::dvec4 at(double s) const;
   double max_extinction() const;
@@ -63,10 +65,10 @@ std::vector<std::string> effect_names(const Effects& effects);
 struct View {
   glm::dvec3 eye{0, 0, 1}, target{0}, up{0, 1, 0};
   bool perspective = true;
-  double fov_y = 0.6;       // radians, perspective
-  double half_height = 1;   // world units, orthographic
-  double near = 0;          // world units from the eye along the view direction; samples nearer are cut away. > 0 in
-                            // perspective; orthographic: may be any value, the eye is on the plane of distance 0
+  double fov_y = 0.6;      // radians, perspective
+  double half_height = 1;  // world units, orthographic
+  double near = 0;         // world units from the eye along the view direction; samples nearer are cut away. > 0 in
+                           // perspective; orthographic: may be any value, the eye is on the plane of distance 0
   std::string name;
 };
 
@@ -88,9 +90,9 @@ Ray pixel_ray(const View& view, int width, int height, double x, double y);
 glm::dmat4 world_to_clip(const View& view, int width, int height, double far);
 
 struct DataSource {
-  std::string origin;    // "procedural", "file", "debian:PACKAGE"
-  std::string path;      // of the file read; empty for procedural data
-  std::string sha256;    // of that file
+  std::string origin;  // "procedural", "file", "debian:PACKAGE"
+  std::string path;    // of the file read; empty for procedural data
+  std::string sha256;  // of that file
   std::string licence;
   std::string how_to_get;
 };
@@ -106,6 +108,7 @@ struct Scene {
   int width = 512, height = 512;
   glm::dvec3 background{0};
   Effects effects;
+  std::shared_ptr<const ScenePlan> plan;  // of a parsed scene; null in one that was put together by hand
 };
 
 }  // namespace volumark

@@ -1,0 +1,21 @@
+#include "scenes/data/raw.h"
+
+#include "scenes/data/byte_source.h"
+#include "scenes/data/orientation.h"
+
+namespace volumark {
+
+Volume read_raw(std::span<const std::byte> file, const RawLayout& layout, NonFinite non_finite,
+                const std::string& what) {
+  Volume volume;
+  volume.size = layout.size;
+  volume.type = layout.type;
+  ByteSource source(file, layout.gzip, what);
+  source.skip(layout.header_bytes);
+  volume.voxels = source.read_voxels(layout.size, layout.type, layout.big_endian);
+  centre_at_origin(volume);
+  finish_volume(volume, non_finite, what);
+  return volume;
+}
+
+}  // namespace volumark

@@ -1,0 +1,151 @@
+#include "scenes/scene_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <sstream>
+
+#include "scenes/data/find_data.h"
+#include "scenes/data/read_volume.h"
+#include "scenes/json_reader.h"
+#include "scenes/nearest.h"
+#include "scenes/scene_plan.h"
+#include "scenes/sha256.h"
+
+namespace volumark {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : "";
+}
+
+std::string read_text(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw SceneError(fmt::format("{}: no such file", path.string()));
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw SceneError(fmt::format("{}: cannot be read", path.string()));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+bool is_scene_file(const fs::path& path) {
+  return path.extension() == ".json" && !path.stem().string().ends_with(".schema");
+}
+
+// Data of a file, checked against the checksum that the scene states.
+std::shared_ptr<const Volume> load_file(const FileSpec& spec, Scene& scene, const DataOptions& options) {
+  const fs::path path = find_data(spec, scene.path, options);
+  const std::vector<std::byte> bytes = read_file_bytes(path);
+  scene.source.path = path.string();
+  // The search has compared the checksum where the scene states one.
+  scene.source.sha256 = file_sha256(path);
+  return std::make_shared<const Volume>(read_volume(spec, bytes, path));
+}
+
+DataSource describe(const ScenePlan& plan) {
+  if (std::holds_alternative<ProceduralSpec>(plan.volume)) return {"procedural", "", "", "", ""};
+  const auto& spec = std::get<FileSpec>(plan.volume);
+  return {spec.package.empty() ? "file" : "debian:" + spec.package, "", spec.sha256, spec.licence, how_to_get(spec)};
+}
+
+void set_hash(Scene& scene) {
+  const bool known = scene.source.origin == "procedural" || !scene.source.sha256.empty();
+  scene.hash = known ? sha256_hex(scene.plan->canonical + scene.source.sha256) : "";
+}
+
+fs::path executable_directory() {
+  std::error_code error;
+  return fs::read_symlink("/proc/self/exe", error).parent_path();
+}
+
+}  // namespace
+
+DataOptions data_options_from_environment() {
+  DataOptions options;
+  std::istringstream list(environment("VOLUMARK_DATA"));
+  for (std::string directory; std::getline(list, directory, ':');) {
+    if (!directory.empty()) options.directories.emplace_back(directory);
+  }
+  if (const std::string cache = environment("VOLUMARK_CACHE"); !cache.empty()) {
+    options.cache = cache;
+  } else if (const std::string xdg = environment("XDG_CACHE_HOME"); !xdg.empty()) {
+    options.cache = fs::path(xdg) / "volumark";
+  } else if (const std::string home = environment("HOME"); !home.empty()) {
+    options.cache = fs::path(home) / ".cache" / "volumark";
+  }
+  return options;
+}
+
+fs::path scene_directory() {
+  if (const std::string given = environment("VOLUMARK_SCENES"); !given.empty()) return given;
+  std::error_code error;
+  const fs::path installed = executable_directory() / "../share/volumark/scenes";
+  return fs::is_directory(installed, error) ? installed : fs::path(VM_SCENE_DIR);
+}
+
+std::vector<SceneEntry> list_scenes() {
+  std::vector<SceneEntry> entries;
+  std::error_code error;
+  for (const auto& file : fs::directory_iterator(scene_directory(), error)) {
+    if (!is_scene_file(file.path())) continue;
+    const nlohmann::json document = parse_json(read_text(file.path()), file.path().string());
+    const bool titled = document.is_object() && document.contains("title") && document["title"].is_string();
+    entries.push_back(
+        {file.path().stem().string(), titled ? document["title"].get<std::string>() : "", file.path().string()});
+  }
+  std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return entries;
+}
+
+Scene load_scene(const std::string& name_or_path) {
+  if (name_or_path.find('/') != std::string::npos || name_or_path.ends_with(".json")) {
+    return parse_scene(read_text(name_or_path), name_or_path);
+  }
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& file : fs::directory_iterator(scene_directory(), error)) {
+    if (is_scene_file(file.path())) names.push_back(file.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  if (std::find(names.begin(), names.end(), name_or_path) == names.end()) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    throw SceneError(fmt::format("unknown scene \"{}\"{}; there are: {}; or the path of a .json file", name_or_path,
+                                 did_you_mean(name_or_path, names), all));
+  }
+  const fs::path path = scene_directory() / (name_or_path + ".json");
+  return parse_scene(read_text(path), path.string());
+}
+
+Scene load_scene(const std::string& name_or_path, const DataOptions& options) {
+  Scene scene = load_scene(name_or_path);
+  load_data(scene, options);
+  return scene;
+}
+
+void describe_source(Scene& scene) {
+  scene.source = describe(*scene.plan);
+  set_hash(scene);
+}
+
+void load_data(Scene& scene, const DataOptions& options) {
+  if (scene.volume || !scene.plan) return;
+  const ScenePlan& plan = *scene.plan;
+  if (const auto* spec = std::get_if<ProceduralSpec>(&plan.volume)) {
+    scene.volume = std::make_shared<const Volume>(make_volume(*spec));
+  } else {
+    scene.volume = load_file(std::get<FileSpec>(plan.volume), scene, options);
+  }
+  const glm::dmat4 box = scene.volume->box_to_world();
+  const VolumeFrame frame{glm::dvec3(box * glm::dvec4(0.5, 0.5, 0.5, 1)), glm::length(scene.volume->extent()) / 2};
+  for (const auto& place : plan.placements) place(scene, frame);
+  set_hash(scene);
+}
+
+}  // namespace volumark

@@ -1,0 +1,57 @@
+// What the file of a scene says and load_data has yet to do: the volume to make or read, and the things that are placed
+// relative to it. Internal to scenes/.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenes/data/raw.h"
+#include "scenes/json_reader.h"
+#include "scenes/procedural.h"
+#include "scenes/scene.h"
+#include "scenes/volume_finish.h"
+
+namespace volumark {
+
+struct FileSpec {
+  std::string file;          // as written: relative to the scene's folder, or a name to look for
+  std::string package;       // Debian package that has it; may be empty
+  std::string package_path;  // where that package installs it
+  std::string sha256;        // lower case; empty: not checked
+  std::optional<uint64_t> bytes;
+  std::string licence, source;
+  std::optional<RawLayout> raw;
+  std::optional<glm::dvec3> spacing, origin;
+  std::optional<glm::dmat3> axes;
+  NonFinite non_finite = NonFinite::Refuse;
+};
+
+// What "units": "radius" refers to: the centre of the box and half its diagonal.
+struct VolumeFrame {
+  glm::dvec3 centre;
+  double radius;
+};
+
+struct ScenePlan {
+  std::variant<ProceduralSpec, FileSpec> volume;
+  std::vector<std::function<void(Scene&, const VolumeFrame&)>> placements;
+  std::string canonical;  // text of all that decides the picture, but for the content of data files
+};
+
+std::variant<ProceduralSpec, FileSpec> parse_volume(const JsonNode& node);
+TransferFunction parse_transfer(const JsonNode& node);
+void parse_views(const JsonNode& node, Scene& scene, ScenePlan& plan);
+void parse_effects(const JsonNode& node, Scene& scene, ScenePlan& plan);
+
+// True for "units": "radius", false for "world"; `fallback` where the key is absent.
+bool in_radius_units(const JsonObject& object, bool fallback);
+
+// Sets Scene::source and Scene::hash, as far as they are known before the data are loaded.
+void describe_source(Scene& scene);
+
+}  // namespace volumark
