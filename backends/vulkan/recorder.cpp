@@ -177,9 +177,9 @@ void Recorder::flush(std::string_view call) {
   to_host.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
   to_host.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
   record_barriers(context_, commands, &to_host, {});
+  bound_ = {};
   commands_.submit_and_wait(call);
   ++serial_;
-  bound_ = {};
   descriptors_.recycle();
   // One chunk is kept: frames with few updates shall not allocate each time.
   if (chunks_.size() > 1 || (!chunks_.empty() && chunks_.back()->size > kChunkBytes)) chunks_.clear();

@@ -100,11 +100,13 @@ void Transfer::fill(GpuTexture& texture, std::span<const std::byte> data) {
     const VkImageMemoryBarrier2 barrier = transition(texture, layout);
     record_barriers(context_, commands_.get(kCall), nullptr, {&barrier, 1});
   };
+  // Before anything is recorded: when it fails, no command may be left that names the texture.
+  if (!data.empty()) staging(std::min(kStagingBytes, data.size()), kCall, texture.label);
   move_to(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   if (data.empty()) {
     record_clear(context_, commands_.get(kCall), texture);
   } else {
-    GpuBuffer& through = staging(std::min(kStagingBytes, data.size()), kCall, texture.label);
+    GpuBuffer& through = *staging_;
     bool first = true;
     for_each_slab(texture, [&](const Slab& slab) {
       if (!first) commands_.submit_and_wait(kCall);  // the last slab is submitted with the transition behind it

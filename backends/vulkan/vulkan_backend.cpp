@@ -132,7 +132,9 @@ class VulkanBackend final : public Backend {
 
   std::vector<ZoneTime> submit_and_wait() override {
     flush("submit_and_wait");
-    return recorder_.take_zones();
+    std::vector<ZoneTime> zones = recorder_.take_zones();
+    context_.throw_if_validation_spoke("submit_and_wait", "");
+    return zones;
   }
 
   void read_texture(uint32_t id, std::span<std::byte> out) override {
@@ -167,7 +169,6 @@ class VulkanBackend final : public Backend {
     require_alive(call, "");
     guarded([&] { recorder_.flush(call); });
     graveyard_ = {};
-    context_.throw_if_validation_spoke(call, "");
   }
 
   std::span<const ResolvedBinding> resolve(std::span<const BoundResource> bindings) {
