@@ -58,6 +58,7 @@ std::string info_log(Get get, Log log, GLuint object) {
   GLsizei written = 0;
   if (!text.empty()) log(object, length, &written, text.data());
   text.resize(static_cast<size_t>(written));
+  text.erase(text.find_last_not_of(" \n") + 1);
   return text;
 }
 
