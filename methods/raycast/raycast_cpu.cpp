@@ -1,0 +1,132 @@
+// Twin of raycast.vert and raycast.frag. Rays march in packets of one SIMD vector, taken from neighbouring pixels;
+// every lane does what the GLSL does for its ray, in its own time, so a ray's colour does not depend on its neighbours.
+#include "methods/raycast/raycast_cpu.h"
+
+#include "backends/cpu/highway_targets.h"
+#include "methods/volume/volume_uniforms.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "methods/raycast/raycast_cpu.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "backends/cpu/sample-inl.h"
+#include "methods/raycast/march-inl.h"
+HWY_BEFORE_NAMESPACE();
+namespace volumark {
+namespace HWY_NAMESPACE {
+namespace {
+
+void vertex(const CpuBindings&, VertexBatch& batch) {
+  for (size_t i = 0; i < batch.count; ++i) {
+    const uint32_t index = batch.vertex_index[i];
+    const float x = index == 1 ? 3.0F : -1.0F;
+    const float y = index == 2 ? 3.0F : -1.0F;
+    const float position[4] = {x, y, 0, 1};
+    std::memcpy(batch.position + 4 * i, position, sizeof(position));
+    batch.varyings[batch.varying_stride * i] = x;
+    batch.varyings[batch.varying_stride * i + 1] = y;
+  }
+}
+
+struct Queue {
+  alignas(64) int32_t ray[Rays::kCapacity];
+  size_t count = 0;
+};
+
+// Rays that meet the volume, neighbours together. A batch is a block of rows of a tile: packets take 4 x 4 (or 4 x 2,
+// 2 x 2) pixels of it. Any other order would be right too, only slower. The last packet is filled up with rays of no
+// length.
+void queue_rays(const FragmentBatch& batch, Rays& rays, Queue& queue) {
+  size_t width = 1;
+  while (width < batch.count && batch.y[width] == batch.y[0]) {
+    ++width;
+  }
+  const size_t rows = (batch.count + width - 1) / width;
+  const size_t lanes = hn::Lanes(FloatTag());
+  const size_t block_width = lanes >= 8 ? 4 : 2;
+  const size_t block_height = std::max<size_t>(lanes / block_width, 1);
+  size_t count = 0;
+  for (size_t top = 0; top < rows; top += block_height) {
+    for (size_t left = 0; left < width; left += block_width) {
+      for (size_t y = top; y < std::min(top + block_height, rows); ++y) {
+        for (size_t x = left; x < std::min(left + block_width, width); ++x) {
+          const size_t i = y * width + x;
+          if (i < batch.count && rays.steps[i] > 0) queue.ray[count++] = static_cast<int32_t>(i);
+        }
+      }
+    }
+  }
+  queue.count = count;
+  rays.steps[kMaxBatch] = 0;
+  for (int axis = 0; axis < 3; ++axis) rays.entry[axis][kMaxBatch] = rays.stride[axis][kMaxBatch] = 0;
+  std::fill_n(queue.ray + count, lanes, static_cast<int32_t>(kMaxBatch));
+}
+
+void write(const Rgba& colour, const int32_t* fragments, size_t count, FragmentBatch& batch) {
+  alignas(64) float rgba[4][kMaxLanes];
+  store(colour.r, rgba[0]);
+  store(colour.g, rgba[1]);
+  store(colour.b, rgba[2]);
+  store(colour.a, rgba[3]);
+  for (size_t lane = 0; lane < count; ++lane) {
+    for (int c = 0; c < 4; ++c) batch.rgba[c][fragments[lane]] = rgba[c][lane];
+  }
+}
+
+template <class Volume, bool preintegrated, bool lit>
+void shade_as(const CpuBindings& bindings, FragmentBatch& batch) {
+  const RaycastBindings b(bindings);
+  const Volume volume(b);
+  const Floats zero = splat(0.F);
+  Rays rays;
+  Queue queue;
+  for_lanes(batch.count, [&](size_t i) HWY_ATTR {
+    set_up_rays<true>(b.vm, load(batch.varyings[0] + i), load(batch.varyings[1] + i), i, rays);
+    store_rgba(batch, i, {zero, zero, zero, zero});
+  });
+  queue_rays(batch, rays, queue);
+  const size_t lanes = hn::Lanes(FloatTag());
+  for (size_t first = 0; first < queue.count; first += lanes) {
+    const Walk walk(b, rays, queue.ray + first);
+    const Rgba colour = preintegrated ? march_segments<lit>(b, volume, walk) : march_samples<lit>(b, volume, walk);
+    write(colour, queue.ray + first, std::min(lanes, queue.count - first), batch);
+  }
+}
+
+template <bool preintegrated, bool lit>
+void shade(const CpuBindings& bindings, FragmentBatch& batch) {
+  const CpuTexture& texture = bindings.textures[1];
+  if (!fits_volume_view(texture)) return shade_as<AnyVolume, preintegrated, lit>(bindings, batch);
+  switch (texture.format) {
+    case Format::R8:
+      return shade_as<FastVolume<Format::R8>, preintegrated, lit>(bindings, batch);
+    case Format::R16:
+      return shade_as<FastVolume<Format::R16>, preintegrated, lit>(bindings, batch);
+    default:
+      return shade_as<FastVolume<Format::R32F>, preintegrated, lit>(bindings, batch);
+  }
+}
+
+CpuKernels specialise(std::span<const int32_t> constants) {
+  const bool preintegrated = constants[0] == 2;
+  const bool lit = constants[2] > 0;
+  CpuKernels kernels;
+  kernels.vertex = vertex;
+  kernels.fragment =
+      preintegrated ? (lit ? shade<true, true> : shade<true, false>) : (lit ? shade<false, true> : shade<false, false>);
+  kernels.varyings = 2;
+  return kernels;
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace volumark
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace volumark {
+HWY_EXPORT(specialise);
+const CpuProgram raycast_cpu{
+    "raycast", [](std::span<const int32_t> constants) { return HWY_DYNAMIC_DISPATCH(specialise)(constants); }};
+}  // namespace volumark
+#endif
