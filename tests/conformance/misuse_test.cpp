@@ -112,7 +112,10 @@ TEST_F(Misuse, Pipelines) {
   refuse(K::LimitExceeded, {.vertex_layouts = std::vector<VertexLayout>(5, VertexLayout{.stride = 16})});
   expect_refused(K::InvalidHandle, "create_pipeline", [&] { device.create_pipeline({.label = "p"}); });
   expect_refused(K::WrongState, "destroy", [&] {
-    const Pipeline user = device.create_pipeline({.label = "user", .program = program});
+    const Pipeline user =
+        device.create_pipeline({.label = "user",
+                                .program = program,
+                                .vertex_layouts = {{.stride = sizeof(Vertex), .attributes = {{0, 4, 0}, {1, 4, 16}}}}});
     try {
       device.destroy(program);
     } catch (...) {
