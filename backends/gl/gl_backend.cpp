@@ -1,8 +1,7 @@
 // The gl backend: OpenGL 4.5 core, drawing to textures. Deferred by the driver only: every call goes straight to GL,
 // with redundant state left out (gl_state.h).
-#include <map>
-
 #include "backends/backend.h"
+#include "backends/gl/gl_caches.h"
 #include "backends/gl/gl_context.h"
 #include "backends/gl/gl_error.h"
 #include "backends/gl/gl_formats.h"
@@ -75,8 +74,6 @@ class GlBackend final : public Backend {
   void read_buffer(uint32_t id, size_t offset, std::span<std::byte> out) override;
 
  private:
-  GLuint sampler_object(const Sampler& sampler);
-  GLuint framebuffer(const GlTexture& colour, const GlTexture* depth_stencil, const std::string& label);
   void bind(std::span<const BoundResource> bindings);
   void bind_geometry(GlPipeline& pipeline, const ResolvedDraw& draw);
 
@@ -85,14 +82,13 @@ class GlBackend final : public Backend {
   BackendInfo info_;
   GlErrors errors_;
   GlState state_;
+  GlCaches caches_;
   GlZones zones_;
   uint64_t last_serial_ = 0;
   std::vector<GlBuffer> buffers_;
   std::vector<GlTexture> textures_;
   std::vector<std::shared_ptr<GlProgram>> programs_;
   std::vector<GlPipeline> pipelines_;
-  std::array<std::array<GLuint, 3>, 2> samplers_{};               // by filter and wrap, made on first use
-  std::map<std::pair<uint64_t, uint64_t>, GLuint> framebuffers_;  // by the serials of colour and depth/stencil
   std::array<GLuint, 3> max_groups_{};
   bool pass_writes_memory_ = false;
 };
@@ -108,6 +104,7 @@ GlBackend::GlBackend(std::unique_ptr<GlContext> context)
       info_(query_gl_info(gl_, *context_)),
       errors_(gl_),
       state_(gl_),
+      caches_(gl_),
       zones_(gl_, !info_.software) {
   state_.initialise();
   for (GLuint axis = 0; axis < 3; ++axis) {
@@ -211,16 +208,7 @@ void GlBackend::destroy_buffer(uint32_t id) {
 
 void GlBackend::destroy_texture(uint32_t id) {
   context_->make_current();
-  const uint64_t serial = textures_[id].serial;
-  for (auto it = framebuffers_.begin(); it != framebuffers_.end();) {
-    if (it->first.first == serial || it->first.second == serial) {
-      gl_.DeleteFramebuffers(1, &it->second);
-      state_.forget_framebuffer();
-      it = framebuffers_.erase(it);
-    } else {
-      ++it;
-    }
-  }
+  if (caches_.forget_texture(textures_[id].serial)) state_.forget_framebuffer();
   gl_.DeleteTextures(1, &textures_[id].name);
   textures_[id] = {};
 }
@@ -239,40 +227,6 @@ void GlBackend::destroy_pipeline(uint32_t id) {
   pipelines_[id] = {};
 }
 
-GLuint GlBackend::sampler_object(const Sampler& sampler) {
-  GLuint& name = samplers_[static_cast<size_t>(sampler.filter)][static_cast<size_t>(sampler.wrap)];
-  if (name) return name;
-  gl_.CreateSamplers(1, &name);
-  const GLint filter = static_cast<GLint>(gl_filter(sampler.filter));
-  const GLint wrap = static_cast<GLint>(gl_wrap(sampler.wrap));
-  gl_.SamplerParameteri(name, GL_TEXTURE_MIN_FILTER, filter);
-  gl_.SamplerParameteri(name, GL_TEXTURE_MAG_FILTER, filter);
-  for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}) {
-    gl_.SamplerParameteri(name, axis, wrap);
-  }
-  const std::array<GLfloat, 4> transparent_black{};
-  gl_.SamplerParameterfv(name, GL_TEXTURE_BORDER_COLOR, transparent_black.data());
-  return name;
-}
-
-GLuint GlBackend::framebuffer(const GlTexture& colour, const GlTexture* depth_stencil, const std::string& label) {
-  const std::pair key{colour.serial, depth_stencil ? depth_stencil->serial : 0};
-  if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) return found->second;
-  GLuint name = 0;
-  gl_.CreateFramebuffers(1, &name);
-  gl_.NamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, colour.name, 0);
-  if (depth_stencil) gl_.NamedFramebufferTexture(name, GL_DEPTH_STENCIL_ATTACHMENT, depth_stencil->name, 0);
-  const GLenum status = gl_.CheckNamedFramebufferStatus(name, GL_FRAMEBUFFER);
-  if (status != GL_FRAMEBUFFER_COMPLETE) {
-    gl_.DeleteFramebuffers(1, &name);
-    throw DeviceError(DeviceErrorKind::MissingCapability, "begin_pass", label,
-                      std::string("the driver cannot draw to ") + to_string(colour.format) +
-                          (depth_stencil ? " with D32FS8" : "") + " (status " + std::to_string(status) + ")");
-  }
-  framebuffers_.emplace(key, name);
-  return name;
-}
-
 // ---- Work -----------------------------------------------------------------------------------------------------------
 
 void GlBackend::update_buffer(uint32_t id, size_t offset, std::span<const std::byte> data) {
@@ -285,7 +239,7 @@ void GlBackend::update_buffer(uint32_t id, size_t offset, std::span<const std::b
 void GlBackend::begin_pass(const ResolvedPass& pass) {
   context_->make_current();
   const GlTexture* depth_stencil = pass.has_depth_stencil ? &textures_[pass.depth_stencil] : nullptr;
-  const GLuint name = framebuffer(textures_[pass.colour], depth_stencil, pass.desc->label);
+  const GLuint name = caches_.framebuffer(textures_[pass.colour], depth_stencil, pass.desc->label);
   state_.bind_framebuffer(name, pass.width, pass.height);
   pass_writes_memory_ = false;
   const bool clear_depth_stencil = depth_stencil && pass.desc->clear_depth_stencil;
@@ -313,7 +267,7 @@ void GlBackend::bind(std::span<const BoundResource> bindings) {
       }
       case BindingKind::Sampled: {
         const GlTexture& texture = textures_[b.object];
-        state_.sampled(b.slot, texture.serial, texture.name, sampler_object(b.sampler));
+        state_.sampled(b.slot, texture.serial, texture.name, caches_.sampler(b.sampler));
         break;
       }
       case BindingKind::Image: {
