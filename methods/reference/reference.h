@@ -20,7 +20,7 @@ struct Reference {
   Image image;               // premultiplied, over transparent black
   std::vector<float> bound;  // per pixel: largest error of any channel (rounding to float included)
   double max_bound = 0;
-  bool estimate = false;     // normalised lighting: the bound is an error estimate (Gauss-Kronrod), not a proof
+  bool estimate = false;  // normalised lighting: the bound is an error estimate (Gauss-Kronrod), not a proof
   int64_t cells = 0, pieces = 0;
 };
 

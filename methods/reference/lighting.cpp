@@ -1,0 +1,94 @@
+#include "methods/reference/lighting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace volumark {
+namespace {
+
+glm::dvec3 unit_or_zero(const glm::dvec3& v) {
+  const double length = std::sqrt(glm::dot(v, v));
+  return length > 0 ? v / length : glm::dvec3(0);
+}
+
+double whole_power(double base, int exponent) {
+  double result = 1;
+  for (; exponent > 0; exponent >>= 1, base *= base)
+    if (exponent & 1) result *= base;
+  return result;
+}
+
+}  // namespace
+
+RayLights::RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray) : lighting_(lighting) {
+  const glm::dmat3 to_axes = glm::transpose(volume.axes);
+  direction_ = to_axes * ray.direction;
+  const double shininess = lighting.shininess;
+  const bool whole = shininess >= 0 && shininess <= 1024 && shininess == std::floor(shininess);
+  whole_shininess_ = whole ? static_cast<int>(shininess) : -1;
+  for (const Light& light : lighting.lights) {
+    LightOnRay out{light.kind == Light::Kind::Point, {}, {}, light.colour};
+    out.vector = to_axes * (out.point ? light.vector - ray.origin : light.vector);
+    out.half = out.point ? glm::dvec3(0) : unit_or_zero(out.vector - direction_);
+    lights_.push_back(out);
+  }
+}
+
+glm::dvec3 RayLights::shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour) const {
+  glm::dvec3 diffuse(lighting_.ambient), specular(0);
+  const glm::dvec3 normal = -unit_or_zero(gradient);
+  for (const LightOnRay& light : lights_) {
+    const glm::dvec3 to_light = light.point ? unit_or_zero(light.vector - t * direction_) : light.vector;
+    double n_l = glm::dot(normal, to_light);
+    if (lighting_.two_sided) n_l = std::abs(n_l);
+    if (n_l > 0) diffuse += light.colour * (lighting_.diffuse * n_l);
+    if (lighting_.specular == 0 || !(n_l > 0 || lighting_.two_sided)) continue;
+    double n_h = glm::dot(normal, light.point ? unit_or_zero(to_light - direction_) : light.half);
+    if (lighting_.two_sided) n_h = std::abs(n_h);
+    if (n_h <= 0) continue;
+    const double power =
+        whole_shininess_ >= 0 ? whole_power(n_h, whole_shininess_) : std::pow(n_h, lighting_.shininess);
+    specular += light.colour * (lighting_.specular * power);
+  }
+  return colour * diffuse + specular;
+}
+
+void RayLights::append_splits(const GradientChord& gradient, double t0, double length,
+                              std::vector<double>& splits) const {
+  auto split_at_zeros = [&](const glm::dvec3& start, const glm::dvec3& change) {  // of g . (start + u change)
+    std::array<double, 5> product{};
+    for (size_t a = 0; a < 3; ++a) {
+      const int axis = static_cast<int>(a);
+      for (size_t k = 0; k < 4; ++k) {
+        product[k] += gradient[a][k] * start[axis];
+        product[k + 1] += gradient[a][k] * change[axis];
+      }
+    }
+    const bool quartic = product[4] != 0;
+    const Roots roots = roots_between({product.data(), quartic ? size_t{5} : size_t{4}}, 0, 1);
+    for (int i = 0; i < roots.count; ++i) splits.push_back(roots.at[static_cast<size_t>(i)]);
+  };
+  for (const LightOnRay& light : lights_) {
+    if (light.point) {
+      split_at_zeros(light.vector - t0 * direction_, -length * direction_);
+    } else {
+      split_at_zeros(light.vector, glm::dvec3(0));
+      // A high power is smooth enough at n . h = 0. (A point light's half vector is no polynomial: left to adaptivity.)
+      if (lighting_.specular > 0 && lighting_.shininess < 6) split_at_zeros(light.half, glm::dvec3(0));
+    }
+  }
+}
+
+LightingBound lighting_bound(const Lighting& lighting) {
+  LightingBound bound{lighting.ambient, 0};
+  for (const Light& light : lighting.lights) {
+    const double brightest = std::max({light.colour.x, light.colour.y, light.colour.z});
+    bound.gain += brightest * lighting.diffuse;
+    bound.offset += brightest * lighting.specular;
+  }
+  return bound;
+}
+
+}  // namespace volumark

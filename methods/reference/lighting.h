@@ -1,0 +1,44 @@
+// Lighting (scenes/scene.h) along one ray, in the volume's own axes. A chord's gradient is a cubic in each component,
+// so g . l is a polynomial; shading jumps or bends where it is zero.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "methods/reference/polynomial.h"
+#include "scenes/scene.h"
+
+namespace volumark {
+
+using GradientChord = std::array<Cubic, 3>;  // components as functions of u in [0, 1] along a chord
+
+class RayLights {
+ public:
+  RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray);
+
+  // Lit colour at distance t along the ray, where the gradient and the unlit colour are these.
+  glm::dvec3 shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour) const;
+
+  // Appends the u in (0, 1) of the chord [t0, t0 + length] where some light changes sides.
+  void append_splits(const GradientChord& gradient, double t0, double length, std::vector<double>& splits) const;
+
+ private:
+  struct LightOnRay {
+    bool point;
+    glm::dvec3 vector;  // unit, to the light; or the light's position relative to the ray's origin
+    glm::dvec3 half;    // directional lights
+    glm::dvec3 colour;
+  };
+  const Lighting& lighting_;
+  glm::dvec3 direction_;
+  int whole_shininess_;  // the exponent where it is a whole number up to 1024, else -1
+  std::vector<LightOnRay> lights_;
+};
+
+// Lit colours stay below gain * (largest channel of c) + offset.
+struct LightingBound {
+  double gain = 1, offset = 0;
+};
+LightingBound lighting_bound(const Lighting& lighting);
+
+}  // namespace volumark
