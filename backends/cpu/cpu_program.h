@@ -1,6 +1,6 @@
-// The CPU twin of a program: what a method writes beside its GLSL so that the cpu backend can run it. A twin is compiled
-// with Highway for several instruction sets; `specialise` picks the kernels once, when the program is made. Kernels are
-// pure functions of the bindings and their input: they are called from several threads at once.
+// The CPU twin of a program: what a method writes beside its GLSL so that the cpu backend can run it. A twin is
+// compiled with Highway for several instruction sets; `specialise` picks the kernels once, when the program is made.
+// Kernels are pure functions of the bindings and their input: they are called from several threads at once.
 #pragma once
 
 #include "backends/types.h"
@@ -18,9 +18,9 @@ struct CpuBuffer {
   size_t size = 0;  // bytes from the bound offset on
 };
 
-// Texels lie at data + (x + y * row_stride + z * slice_stride) * texel_bytes. Rows and slices are padded, so that reading
-// one texel past the end of a row, one row past the end of a slice, and one slice past the end is allowed (the values
-// there repeat the edge); 16 readable bytes follow the last texel.
+// Texels lie at data + (x + y * row_stride + z * slice_stride) * texel_bytes. Rows and slices are padded, so that
+// reading one texel past the end of a row, one row past the end of a slice, and one slice past the end is allowed (the
+// values there repeat the edge); 16 readable bytes follow the last texel.
 struct CpuTexture {
   const std::byte* data = nullptr;
   std::byte* writable = nullptr;  // storage images
@@ -55,14 +55,14 @@ inline const float* attribute_of(const VertexBatch& batch, int location, size_t 
 
 // Fragments of one tile, structure of arrays, in drawing order; a pixel occurs at most once in a batch.
 struct FragmentBatch {
-  size_t count = 0;                 // <= kMaxBatch
-  const float* x = nullptr;         // window coordinates of the sample, pixel centres (.5); y down, row 0 on top
+  size_t count = 0;          // <= kMaxBatch
+  const float* x = nullptr;  // window coordinates of the sample, pixel centres (.5); y down, row 0 on top
   const float* y = nullptr;
-  const float* z = nullptr;         // window depth; null unless CpuKernels::reads_depth
+  const float* z = nullptr;                  // window depth; null unless CpuKernels::reads_depth
   const float* varyings[kMaxVaryings] = {};  // perspective-correct
   bool front_facing = true;
-  float* rgba[4] = {};              // out
-  uint8_t* discard = nullptr;       // out, zeroed before the call: set to 1 where the fragment is dropped
+  float* rgba[4] = {};         // out
+  uint8_t* discard = nullptr;  // out, zeroed before the call: set to 1 where the fragment is dropped
 };
 
 using CpuVertexKernel = void (*)(const CpuBindings&, VertexBatch&);
@@ -75,8 +75,10 @@ struct CpuKernels {
   CpuFragmentKernel fragment = nullptr;
   CpuComputeKernel compute = nullptr;
   int varyings = 0;
-  bool discards = false;     // the fragment kernel may set `discard`
-  bool reads_depth = false;  // the fragment kernel reads z
+  bool discards = false;           // the fragment kernel may set `discard`
+  bool reads_depth = false;        // the fragment kernel reads z
+  bool reads_front_facing = true;  // false: batches may mix faces (front_facing is then meaningless), which fills them
+                                   // better where small front and back faces alternate
 };
 
 struct CpuProgram {

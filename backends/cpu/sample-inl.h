@@ -119,8 +119,8 @@ HWY_INLINE Rgba fetch_texels(const CpuTexture& texture, Ints offset, FloatMask i
   alignas(64) int32_t at[kMaxLanes];
   alignas(64) float channel[4][kMaxLanes];
   hn::Store(hn::IfThenElseZero(hn::RebindMask(di, inside), offset), di, at);
-  decode_texels(texture, at, hn::Lanes(d), channel[0], channel[1], channel[2], channel[3]);
-  const Floats missing = hn::Set(d, has_alpha(texture.format) ? 0.0F : 1.0F);
+  cpu::decode_texels(texture, at, hn::Lanes(d), channel[0], channel[1], channel[2], channel[3]);
+  const Floats missing = hn::Set(d, cpu::has_alpha(texture.format) ? 0.0F : 1.0F);
   return {hn::IfThenElseZero(inside, hn::Load(d, channel[0])), hn::IfThenElseZero(inside, hn::Load(d, channel[1])),
           hn::IfThenElseZero(inside, hn::Load(d, channel[2])),
           hn::IfThenElse(inside, hn::Load(d, channel[3]), missing)};

@@ -1,5 +1,6 @@
 // One texel of any format to and from float, scalar code: the definition that the SIMD paths must agree with. UNORM
-// rounds to nearest on store, half floats to nearest even.
+// rounds to nearest on store, half floats to nearest even. (backends/texel.h is the host's, for uploads and tests; this
+// one is inline, for the tiles and the samplers.)
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 
 #include "backends/cpu/cpu_program.h"
 
-namespace volumark {
+namespace volumark::cpu {
 
 inline bool has_alpha(Format format) {
   return format == Format::RGBA8 || format == Format::RGBA16F || format == Format::RGBA32F;
@@ -153,4 +154,4 @@ inline void decode_texels(const CpuTexture& texture, const int32_t* at, size_t c
   }
 }
 
-}  // namespace volumark
+}  // namespace volumark::cpu
