@@ -113,10 +113,28 @@ glm::vec4 as_homogeneous(const Stretch& stretch, double mean_extinction, double 
 }  // namespace
 
 std::vector<float> transfer_table(const TransferFunction& transfer, int nodes) {
+  const int count = nodes - 1;
+  std::vector<glm::dvec4> values;
+  for (int i = 0; i < nodes; ++i) values.push_back(transfer.at(transfer.lo + (transfer.hi - transfer.lo) * i / count));
+  // A jump inside an interval becomes a ramp over it. The nearer of its two nodes is moved so that the integral over
+  // the table stays that of the jump: it then errs in width, not in place.
+  for (size_t p = 0; p + 1 < transfer.points.size(); ++p) {
+    const double value = transfer.points[p].value;
+    if (value != transfer.points[p + 1].value) continue;
+    const double x = (value - transfer.lo) / (transfer.hi - transfer.lo) * count;
+    const double node = std::floor(x), f = x - node;
+    if (node < 0 || node >= count || f < 1e-9 || f > 1 - 1e-9) continue;  // on a node: exact there
+    const auto i = static_cast<size_t>(node);
+    const glm::dvec4 jump = value_of(transfer.points[p + 1]) - value_of(transfer.points[p]);
+    if (f < 0.5) {
+      values[i] += jump * (0.5 - f);
+    } else {
+      values[i + 1] -= jump * (f - 0.5);
+    }
+  }
   std::vector<float> table;
-  table.reserve(static_cast<size_t>(nodes) * 4);
-  for (int i = 0; i < nodes; ++i) {
-    const glm::dvec4 value = transfer.at(transfer.lo + (transfer.hi - transfer.lo) * i / (nodes - 1));
+  table.reserve(values.size() * 4);
+  for (const glm::dvec4& value : values) {
     for (int channel = 0; channel < 4; ++channel) table.push_back(static_cast<float>(value[channel]));
   }
   return table;

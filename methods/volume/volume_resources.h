@@ -16,7 +16,7 @@ namespace volumark {
 // (r, g, b, tau) at `nodes` values evenly spaced over the window, the ends included. Between nodes the table is
 // interpolated linearly: exact where every control point falls on a node (1021 = 4 * 255 + 1 nodes hold every quarter
 // of a level of an 8-bit window); otherwise a kink inside an interval errs by at most a quarter of the change of slope
-// times the interval, and a jump is smeared over one interval.
+// times the interval, and a jump is smeared over one interval, with the same integral (at a node: the second value).
 std::vector<float> transfer_table(const TransferFunction& transfer, int nodes);
 
 // size x size texels, x: front, y: back. Along a segment on which s runs linearly from front to back: rgb = the
