@@ -24,6 +24,9 @@ target_compile_options(vm_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -
                                              -Woverloaded-virtual
                                              # descriptors are written with designated initialisers
                                              -Wno-missing-field-initializers)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  target_compile_options(vm_settings INTERFACE -Wno-restrict)  # false alarm on "text" + std::string (GCC bug 105651)
+endif()
 if(VM_WERROR)
   target_compile_options(vm_settings INTERFACE -Werror)
 endif()
