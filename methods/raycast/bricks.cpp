@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "methods/volume/volume_resources.h"
+
 namespace volumark {
 namespace {
 
@@ -68,37 +70,14 @@ void to_data_units(const Volume& volume, BrickRanges& ranges) {
   }
 }
 
-// Answers whether the extinction is above 0 somewhere in a closed interval: at one of its ends, or at a control point
-// inside, since it is linear in between.
-class Opaque {
- public:
-  explicit Opaque(const TransferFunction& transfer) {
-    size_t positive = 0;
-    for (const TransferPoint& point : transfer.points) {
-      values_.push_back(point.value);
-      positive_before_.push_back(positive);
-      positive += point.extinction > 0;
-    }
-    positive_before_.push_back(positive);
-  }
-  bool within(double lo, double hi) const {
-    const size_t first = index(std::lower_bound(values_.begin(), values_.end(), lo));
-    const size_t last = index(std::upper_bound(values_.begin(), values_.end(), hi));
-    return positive_before_[last] > positive_before_[first] || at(lo) || at(hi);
-  }
-
- private:
-  size_t index(std::vector<double>::const_iterator it) const { return static_cast<size_t>(it - values_.begin()); }
-  bool positive(size_t i) const { return positive_before_[i + 1] > positive_before_[i]; }
-  bool at(double value) const {
-    const size_t next = index(std::upper_bound(values_.begin(), values_.end(), value));
-    if (next == 0) return positive(0);
-    if (next == values_.size()) return positive(next - 1);
-    return positive(next - 1) || (positive(next) && value > values_[next - 1]);
-  }
-  std::vector<double> values_;
-  std::vector<size_t> positive_before_;
-};
+// Whether the extinction is above 0 somewhere in [lo, hi]: at one of its ends, or at a control point inside, since it
+// is linear in between.
+bool extinction_within(const TransferFunction& transfer, double lo, double hi) {
+  if (transfer.at(lo).a > 0 || transfer.at(hi).a > 0) return true;
+  return std::any_of(transfer.points.begin(), transfer.points.end(), [&](const TransferPoint& point) {
+    return point.value >= lo && point.value <= hi && point.extinction > 0;
+  });
+}
 
 // One sweep of the exact two-sweep Chebyshev transform: from each brick's 13 predecessors in scan order.
 void sweep(std::vector<uint8_t>& distance, const glm::ivec3& n, bool forward) {
@@ -159,46 +138,61 @@ BrickRanges brick_ranges(const Volume& volume, int edge) {
   return out;
 }
 
-BrickDistances brick_distances(const BrickRanges& ranges, const TransferFunction& transfer, int table_size,
-                               double widen) {
-  const Opaque opaque(transfer);
-  const double spacing = (transfer.hi - transfer.lo) / (table_size - 1);
-  const auto entry_below = [&](double value) {
-    return transfer.lo + std::floor((value - transfer.lo) / spacing) * spacing;
-  };
-  const auto entry_above = [&](double value) {
-    return transfer.lo + std::ceil((value - transfer.lo) / spacing) * spacing;
-  };
+OpaqueValues::OpaqueValues(const TransferFunction& transfer, Classification classification, int table_size)
+    : lo_(transfer.lo), scale_((table_size - 1) / (transfer.hi - transfer.lo)) {
+  const auto nodes = static_cast<size_t>(table_size);
+  std::vector<bool> opaque(2 * nodes - 1);
+  if (classification == Classification::Preintegrated) {
+    const auto value = [&](size_t node) { return transfer.lo + static_cast<double>(node) / scale_; };
+    for (size_t i = 0; i < nodes; ++i) {
+      opaque[2 * i] = transfer.at(value(i)).a > 0;
+      if (i + 1 < nodes) opaque[2 * i + 1] = extinction_within(transfer, value(i), value(i + 1));
+    }
+  } else {
+    const std::vector<float> table = transfer_table(transfer, table_size);
+    for (size_t i = 0; i < nodes; ++i) {
+      opaque[2 * i] = table[4 * i + 3] > 0;
+      if (i + 1 < nodes) opaque[2 * i + 1] = table[4 * i + 3] > 0 || table[4 * i + 7] > 0;
+    }
+  }
+  opaque_before_.push_back(0);
+  for (const bool here : opaque) opaque_before_.push_back(opaque_before_.back() + (here ? 1 : 0));
+}
+
+size_t OpaqueValues::place(double value) const {
+  const double last = static_cast<double>(opaque_before_.size() - 2) / 2;
+  const double node = std::clamp((value - lo_) * scale_, 0.0, last);
+  const double below = std::floor(node);
+  return 2 * static_cast<size_t>(below) + (node > below ? 1 : 0);
+}
+
+bool OpaqueValues::any(double lo, double hi) const { return opaque_before_[place(hi) + 1] > opaque_before_[place(lo)]; }
+
+OpaqueValues::Window OpaqueValues::window() const {
+  const size_t places = opaque_before_.size() - 1, all = opaque_before_.back();
+  if (all == 0) return {};
+  size_t first = 0, end = places;  // of the opaque places
+  while (opaque_before_[first + 1] == 0) ++first;
+  while (opaque_before_[end - 1] == all) --end;
+  // Open intervals, so that a value which rounding puts on their end is still seen.
+  constexpr float kAll = std::numeric_limits<float>::infinity();
+  const auto value = [&](size_t place) { return static_cast<float>(place) / static_cast<float>(places - 1); };
+  return {first == 0 ? -kAll : std::nextafter(value((first - 1) / 2 * 2), -kAll),
+          end == places ? kAll : std::nextafter(value((end + 1) / 2 * 2), kAll)};
+}
+
+BrickDistances brick_distances(const BrickRanges& ranges, const OpaqueValues& opaque, double widen) {
   BrickDistances out;
   out.distance.resize(ranges.lo.size());
   for (size_t i = 0; i < ranges.lo.size(); ++i) {
-    const bool occupied = opaque.within(entry_below(static_cast<double>(ranges.lo[i]) - widen),
-                                        entry_above(static_cast<double>(ranges.hi[i]) + widen));
+    const bool occupied =
+        opaque.any(static_cast<double>(ranges.lo[i]) - widen, static_cast<double>(ranges.hi[i]) + widen);
     out.distance[i] = occupied ? 0 : 255;
     out.occupied += occupied;
   }
   sweep(out.distance, ranges.count, true);
   sweep(out.distance, ranges.count, false);
   return out;
-}
-
-OpaqueWindow opaque_window(const TransferFunction& transfer, int table_size) {
-  const Opaque opaque(transfer);
-  const double spacing = (transfer.hi - transfer.lo) / (table_size - 1);
-  const auto interval_is_opaque = [&](int i) {
-    return opaque.within(transfer.lo + i * spacing, transfer.lo + (i + 1) * spacing);
-  };
-  const int last = table_size - 2;
-  int first = 0;
-  while (first <= last && !interval_is_opaque(first)) ++first;
-  if (first > last) return {};
-  int end = last;
-  while (!interval_is_opaque(end)) --end;
-  // An open interval of a float step more on either side.
-  constexpr float kAll = std::numeric_limits<float>::infinity();
-  const auto position = [&](int i) { return static_cast<float>(i) / static_cast<float>(table_size - 1); };
-  return {first == 0 ? -kAll : std::nextafter(position(first), -kAll),
-          end == last ? kAll : std::nextafter(position(end + 1), kAll)};
 }
 
 }  // namespace volumark

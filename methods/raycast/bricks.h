@@ -1,12 +1,13 @@
 // Empty-space skipping: the volume's cells in bricks of edge^3, each with the range of its samples (those on its far
 // faces included, so that every trilinear value inside lies in the range), and the distance of each brick to the
-// nearest occupied one. A brick is occupied where the transfer function is not transparent over its whole range.
+// nearest occupied one. A brick is occupied where the classification table is not transparent over its whole range.
 #pragma once
 
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "methods/volume/volume_parameters.h"
 #include "scenes/scene.h"
 
 namespace volumark {
@@ -25,6 +26,26 @@ struct BrickRanges {
 // `edge` >= 1. Brick (x, y, z) holds the cells [x edge, (x + 1) edge) ..., an axis with one sample has one brick.
 BrickRanges brick_ranges(const Volume& volume, int edge);
 
+// Which normalised values look opaque through a classification table with linear interpolation: places 0, 2, 4 ... are
+// the table's nodes, 1, 3, 5 ... the open intervals between them. Values outside of the window read its ends.
+class OpaqueValues {
+ public:
+  OpaqueValues(const TransferFunction& transfer, Classification classification, int table_size);
+  // Whether a value in the closed interval is opaque; data units.
+  bool any(double lo, double hi) const;
+  // lo < s_n < hi holds for every opaque value; lo >= hi: there are none.
+  struct Window {
+    float lo = 0, hi = 0;
+  };
+  Window window() const;
+
+ private:
+  size_t place(double value) const;
+
+  double lo_, scale_;                  // nodes per data unit
+  std::vector<size_t> opaque_before_;  // one more than there are places
+};
+
 struct BrickDistances {
   // Chebyshev distance in bricks to the nearest occupied brick, 0 for an occupied one, at most 255: all bricks nearer
   // than the distance are empty. Same order as the ranges.
@@ -32,17 +53,7 @@ struct BrickDistances {
   int64_t occupied = 0;
 };
 
-// The opacity is looked up, linearly, in a table of `table_size` entries over the transfer function's window: ranges
-// are taken from the entry below to the entry above. `widen` >= 0 (data units) covers the rounding of the volume's
-// texture format.
-BrickDistances brick_distances(const BrickRanges& ranges, const TransferFunction& transfer, int table_size,
-                               double widen);
-
-// Values, normalised by the transfer function's window, outside of which every look-up in a table of `table_size`
-// entries is transparent: lo < s_n < hi holds for all others. Values beyond the window read its ends.
-struct OpaqueWindow {
-  float lo = 0, hi = 0;  // lo >= hi: all is transparent
-};
-OpaqueWindow opaque_window(const TransferFunction& transfer, int table_size);
+// `widen` >= 0 (data units) covers the rounding of the volume's texture format.
+BrickDistances brick_distances(const BrickRanges& ranges, const OpaqueValues& opaque, double widen);
 
 }  // namespace volumark

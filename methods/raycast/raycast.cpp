@@ -126,15 +126,16 @@ class PreparedRaycast final : public PreparedMethod {
  private:
   // Where nothing is skipped the program still names the texture: one brick.
   void create_distances(const Values& values) {
-    const int nodes = static_cast<int>(classification(values) == Classification::Post ? kTableSize(values)
-                                                                                      : kPreintegratedSize(values));
-    opaque_ = opaque_window(scene_.transfer, nodes);
+    const bool post = classification(values) == Classification::Post;
+    const OpaqueValues opaque(scene_.transfer, classification(values),
+                              static_cast<int>(post ? kTableSize(values) : kPreintegratedSize(values)));
+    opaque_ = opaque.window();
     bricks_.count = {1, 1, 1};
     BrickDistances found{{0}, 1};
     if (skips(values)) {
       device_.begin_zone("classify");
       bricks_ = brick_ranges(*scene_.volume, static_cast<int>(kBrickSize(values)));
-      found = brick_distances(bricks_, scene_.transfer, nodes, texture_rounding(*scene_.volume, kVolumeFormat(values)));
+      found = brick_distances(bricks_, opaque, texture_rounding(*scene_.volume, kVolumeFormat(values)));
       device_.end_zone();
       counters_["bricks"] = static_cast<int64_t>(found.distance.size());
       counters_["bricks_occupied"] = found.occupied;
@@ -183,12 +184,12 @@ class PreparedRaycast final : public PreparedMethod {
     return uniforms;
   }
 
-  const Scene& scene_;
+  Scene scene_;  // shares the volume
   Device& device_;
   double step_;  // world units
   double early_termination_;
   VolumeResources resources_;
-  OpaqueWindow opaque_;
+  OpaqueValues::Window opaque_;
   BrickRanges bricks_;
   Texture distances_;
   Buffer uniforms_;
