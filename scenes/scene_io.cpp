@@ -54,9 +54,22 @@ DataSource describe(const ScenePlan& plan) {
   return {spec.package.empty() ? "file" : "debian:" + spec.package, "", spec.sha256, spec.licence, how_to_get(spec)};
 }
 
+// The checksum of a detached NRRD header says nothing about its voxels: then they count too, once they are there.
+bool is_detached(const ScenePlan& plan) {
+  const auto* spec = std::get_if<FileSpec>(&plan.volume);
+  return spec != nullptr && !spec->raw && spec->file.ends_with(".nhdr");
+}
+
 void set_hash(Scene& scene) {
-  const bool known = scene.source.origin == "procedural" || !scene.source.sha256.empty();
-  scene.hash = known ? sha256_hex(scene.plan->canonical + scene.source.sha256) : "";
+  const bool detached = is_detached(*scene.plan);
+  const bool known =
+      scene.source.origin == "procedural" || (!scene.source.sha256.empty() && (scene.volume || !detached));
+  if (!known) {
+    scene.hash.clear();
+    return;
+  }
+  const std::string voxels = detached ? sha256_hex(scene.volume->voxels) : "";
+  scene.hash = sha256_hex(scene.plan->canonical + scene.source.sha256 + voxels);
 }
 
 fs::path executable_directory() {

@@ -206,7 +206,7 @@ void orient(Volume& volume, const NrrdHeader& header, const std::string& what) {
     for (int a = 0; a < 3; ++a) steps[a] *= s[static_cast<size_t>(a)] * signs[a];
   }
   for (int a = 0; a < 3; ++a) {
-    if (!header.find("space directions") && steps[a][a] * signs[a] <= 0) {
+    if (!header.find("space directions") && !(steps[a][a] * signs[a] > 0)) {
       header.fail(fmt::format("spacings: expected numbers > 0, found {}", steps[a][a] * signs[a]));
     }
   }
