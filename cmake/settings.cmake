@@ -17,6 +17,9 @@ endif()
 
 find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(nlohmann_json REQUIRED)
 
 add_library(vm_settings INTERFACE)
 target_include_directories(vm_settings INTERFACE ${VM_ROOT} ${CMAKE_BINARY_DIR}/generated)

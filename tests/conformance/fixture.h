@@ -10,6 +10,7 @@
 #include "backends/device.h"
 #include "backends/texel.h"
 #include "tests/conformance/twins.h"
+#include "tests/support/backend.h"
 
 namespace volumark::conformance {
 
@@ -17,9 +18,6 @@ struct Vertex {
   float position[4];
   float colour[4];
 };
-
-const std::string& backend_id();  // from the command line
-DeviceOptions device_options();   // validation on for vulkan; --gl-platform and --vk-device from the command line
 
 enum class Kind { Flat, Window, Special, Sample1D, Sample2D, Sample3D };
 

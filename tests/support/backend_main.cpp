@@ -1,13 +1,14 @@
-// conformance --backend=gl|vulkan|cpu [--gl-platform=egl] [--vk-device=NAME] [GoogleTest flags]
+// TEST --backend=gl|vulkan|cpu [--gl-platform=egl] [--vk-device=NAME] [GoogleTest flags]
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <string_view>
 
-#include "tests/conformance/fixture.h"
+#include "tests/support/backend.h"
 
-namespace volumark::conformance {
+namespace volumark {
 namespace {
+
 std::string backend;
 DeviceOptions options;
 
@@ -16,10 +17,6 @@ bool take(std::string_view argument, std::string_view flag, std::string& into) {
   into = argument.substr(flag.size());
   return true;
 }
-}  // namespace
-
-const std::string& backend_id() { return backend; }
-DeviceOptions device_options() { return options; }
 
 int run(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
@@ -39,6 +36,12 @@ int run(int argc, char** argv) {
   options.validation = backend == "vulkan";
   return RUN_ALL_TESTS();
 }
-}  // namespace volumark::conformance
 
-int main(int argc, char** argv) { return volumark::conformance::run(argc, argv); }
+}  // namespace
+
+const std::string& backend_id() { return backend; }
+DeviceOptions device_options() { return options; }
+
+}  // namespace volumark
+
+int main(int argc, char** argv) { return volumark::run(argc, argv); }
