@@ -51,25 +51,35 @@ double Integrator::position_error(const Ray& ray) const {
   return 8 * kEpsilon * size;
 }
 
+namespace {
+
+// An end of a span: the last of several entries (or, negated, the first of several exits), with the range that rounding
+// leaves it.
+struct End {
+  double at, least, most;
+  void raise(double t, double error) {
+    at = std::max(at, t);
+    least = std::max(least, t - error);
+    most = std::max(most, t + error);
+  }
+  double error() const { return std::max(at - least, most - at); }
+};
+
+}  // namespace
+
 std::optional<Integrator::Span> Integrator::clip(const Ray& ray, const GridRay& grid, double error) const {
-  const double infinity = std::numeric_limits<double>::infinity();
-  Span span{ray.t_near, infinity, std::abs(ray.t_near) * kEpsilon * 4, 0};
-  // Keeps t where from + t * rate >= 0, both with this absolute error in `from`.
+  const double infinity = std::numeric_limits<double>::infinity(), lowest = std::numeric_limits<double>::lowest();
+  End entry{lowest, lowest, lowest}, exit = entry;  // exit: of -t
+  entry.raise(ray.t_near, 4 * kEpsilon * std::abs(ray.t_near));
+  // Keeps t where from + t * rate >= 0, with this absolute error along the whole ray.
   auto keep = [&](double from, double rate, double from_error) {
-    if (rate == 0) {
-      if (from < -from_error) span.t1 = -infinity;
-      if (std::abs(from) <= from_error) span.error0 = infinity;  // in or out: rounding decides
-      if (from < 0) span.t1 = -infinity;
-      return;
-    }
-    const double t = -from / rate, t_error = from_error / std::abs(rate) + 4 * kEpsilon * std::abs(t);
-    if (rate > 0 && t > span.t0) {
-      span.t0 = t;
-      span.error0 = std::max(span.error0, t_error);
-    }
-    if (rate < 0 && t < span.t1) {
-      span.t1 = t;
-      span.error1 = std::max(span.error1, t_error);
+    if (rate != 0) {
+      const double t = -from / rate, t_error = from_error / std::abs(rate) + 4 * kEpsilon * std::abs(t);
+      rate > 0 ? entry.raise(t, t_error) : exit.raise(-t, t_error);
+    } else if (std::abs(from) <= from_error) {  // in or out: rounding decides
+      from < 0 ? exit.raise(infinity, infinity) : exit.raise(lowest, infinity);
+    } else if (from < 0) {
+      exit.raise(infinity, 0);
     }
   };
   for (int a = 0; a < 3; ++a) {
@@ -78,14 +88,13 @@ std::optional<Integrator::Span> Integrator::clip(const Ray& ray, const GridRay& 
   }
   for (const ClipPlane& plane : scene_.effects.clip_planes) {
     const double at = glm::dot(plane.normal, ray.origin);
-    const double plane_error = 8 * kEpsilon * (glm::length(ray.origin) + std::abs(plane.distance));
+    const double plane_error = 8 * kEpsilon * (2 * glm::length(ray.origin) + std::abs(plane.distance));
     keep(at - plane.distance, glm::dot(plane.normal, ray.direction), plane_error);
   }
+  if (entry.least >= -exit.least) return std::nullopt;
   const double longest = glm::length(lattice_.volume().extent());
-  span.error0 = std::min(span.error0, longest);
-  span.error1 = std::min(span.error1, longest);
-  if (span.t1 + span.error1 + span.error0 <= span.t0) return std::nullopt;
-  return span;
+  auto within = [&](double e) { return e < longest ? e : longest; };  // also where e is not a number
+  return Span{entry.at, -exit.at, within(entry.error()), within(exit.error())};
 }
 
 RayResult Integrator::integrate(const Ray& ray, double tolerance) const {

@@ -29,8 +29,8 @@ class Integrator {
  private:
   // What the box, the near plane and the clip planes leave of a ray.
   struct Span {
-    double t0, t1;
-    double error0, error1;  // rounding of both ends
+    double t0, t1;          // empty where t0 >= t1
+    double error0, error1;  // how far rounding may have moved either end
   };
   std::optional<Span> clip(const Ray& ray, const GridRay& grid, double position_error) const;
   double position_error(const Ray& ray) const;

@@ -1,5 +1,6 @@
 #include "methods/reference/reference.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -56,7 +57,8 @@ Reference render_reference(const Scene& scene, const View& view, int width, int 
                            const ReferenceOptions& options) {
   if (width <= 0 || height <= 0) throw std::invalid_argument("reference: the image has no pixel");
   if (!(options.tolerance > 0)) throw std::invalid_argument("reference: the tolerance must be positive");
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  const int available = tbb::info::default_concurrency();
+  tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
   return arena.execute([&] {
     const Integrator integrator(checked(scene), true);
     Reference out;
