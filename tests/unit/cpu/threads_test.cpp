@@ -40,7 +40,7 @@ std::vector<std::byte> image_with(int threads, Format format, bool depth) {
   pipeline.has_depth_stencil = depth;
   pipeline.depth_test = pipeline.depth_write = depth;
   RasterFixture raster(301, 203, threads, kernels_of<tinted, true>, pipeline);
-  raster.draw(soup(40000));
+  raster.draw(soup(1500));
   return raster.bytes(texel_bytes(format));
 }
 
