@@ -24,7 +24,8 @@ class Commands {
   VkCommandBuffer get(std::string_view call) {
     if (recording_) return buffer_;
     check(context_.vk.vkResetCommandPool(context_.device, pool_, 0), call, "", "vkResetCommandPool");
-    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    VkCommandBufferBeginInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(context_.vk.vkBeginCommandBuffer(buffer_, &info), call, "", "vkBeginCommandBuffer");
     recording_ = true;
@@ -34,9 +35,11 @@ class Commands {
   void submit_and_wait(std::string_view call) {
     recording_ = false;
     check(context_.vk.vkEndCommandBuffer(buffer_), call, "", "vkEndCommandBuffer");
-    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    VkCommandBufferSubmitInfo commands{};
+    commands.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
     commands.commandBuffer = buffer_;
-    VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    VkSubmitInfo2 info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &commands;
     check(context_.vk.vkResetFences(context_.device, 1, &fence_), call, "", "vkResetFences");
@@ -47,17 +50,20 @@ class Commands {
  private:
   void make() {
     constexpr const char* kCall = "make_vulkan_backend";
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
     pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool.queueFamilyIndex = context_.queue_family;
     check(context_.vk.vkCreateCommandPool(context_.device, &pool, nullptr, &pool_), kCall, "", "vkCreateCommandPool");
-    VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    VkCommandBufferAllocateInfo buffer{};
+    buffer.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
     buffer.commandPool = pool_;
     buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     buffer.commandBufferCount = 1;
     check(context_.vk.vkAllocateCommandBuffers(context_.device, &buffer, &buffer_), kCall, "",
           "vkAllocateCommandBuffers");
-    VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
     check(context_.vk.vkCreateFence(context_.device, &fence, nullptr, &fence_), kCall, "", "vkCreateFence");
   }
   void free() {

@@ -38,7 +38,13 @@ TextureDesc source_desc() {
           .depth = kVolume,
           .data = bytes_of(voxels())};
 }
-TextureDesc target_desc() { return {.label = "target", .width = kImage, .height = kImage, .target = true}; }
+TextureDesc target_desc() {
+  TextureDesc desc;
+  desc.label = "target";
+  desc.width = desc.height = kImage;
+  desc.target = true;
+  return desc;
+}
 
 ProgramDesc program_desc() {
   ProgramDesc desc;
