@@ -1,0 +1,76 @@
+// volumark run: experiments into a folder.
+#include <fmt/format.h>
+
+#include <csignal>
+
+#include "harness/cli/commands.h"
+#include "harness/cli/show.h"
+#include "harness/paths.h"
+#include "harness/runner.h"
+
+namespace volumark::cli {
+namespace {
+
+struct RunArguments {
+  RunOptions options;
+  std::string out;
+  std::vector<std::string> only;
+  bool no_images = false;
+};
+
+std::atomic<bool> stop_asked{false};
+
+extern "C" void on_signal(int) {
+  if (stop_asked.exchange(true)) std::_Exit(kInterrupted);  // asked twice: at once; the journal has what was finished
+}
+
+int run(const RunArguments& arguments, const Globals& globals) {
+  RunOptions options = arguments.options;
+  for (const std::string& text : arguments.only) options.filter.only.push_back(split_assignment(text));
+  for (const std::string& backend : options.filter.backends) check_backend_name(backend);
+  options.out = arguments.out.empty() ? "out/" + std::filesystem::path(options.experiments.front()).stem().string()
+                                      : arguments.out;
+  options.cache = cache_directory() / "references";
+  options.images = !arguments.no_images;
+  options.data = globals.data_options();
+  options.cell.device = globals.device;
+  options.cell.require_backends = globals.require_backends;
+  options.cell.stop = &stop_asked;
+  options.argv = globals.argv;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const RunOutcome outcome = run_experiments(options);
+  if (outcome.skipped > 0) fmt::print("{} cells were measured before\n", outcome.skipped);
+  show_results(outcome.results, options.out);
+  for (const std::string& line : outcome.bad_news) fmt::print("{}\n", line);
+  fmt::print("{}\n", (options.out / "results.json").string());
+  if (outcome.interrupted) {
+    fmt::print("interrupted; go on with: volumark run {} --out {} --resume\n", fmt::join(options.experiments, " "),
+               options.out.string());
+    return kInterrupted;
+  }
+  return outcome.bad_news.empty() ? kOk : kBadNews;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, const Globals& globals, Action& action) {
+  auto arguments = std::make_shared<RunArguments>();
+  RunOptions& options = arguments->options;
+  CLI::App* command = app.add_subcommand("run", "Run experiments: every cell measured, compared and written down");
+  command->add_option("experiment", options.experiments, "names (volumark list experiments), or .json files")
+      ->required();
+  command->add_option("--out,-o", arguments->out, "folder for results.json and images (default: out/EXPERIMENT)");
+  command->add_flag("--resume", options.resume, "go on with an unfinished run in that folder");
+  command->add_flag("--overwrite", options.overwrite, "throw away an unfinished run in that folder");
+  command->add_option("--backend,-b", options.filter.backends, "only these backends")->delimiter(',');
+  command->add_option("--scene", options.filter.scenes, "only these scenes")->delimiter(',');
+  command->add_option("--method,-m", options.filter.methods, "only these methods")->delimiter(',');
+  command->add_option("--only", arguments->only, "only cells with this parameter: name=value")->take_all();
+  command->add_flag("--no-images", arguments->no_images, "keep no pictures");
+  command->footer("Example: volumark run quick --backend cpu --out out/quick");
+  command->callback(
+      [&globals, &action, arguments] { action = [&globals, arguments] { return run(*arguments, globals); }; });
+}
+
+}  // namespace volumark::cli

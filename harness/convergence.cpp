@@ -1,0 +1,104 @@
+#include "harness/convergence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/run_folder.h"
+#include "harness/statistics.h"
+
+namespace volumark {
+namespace {
+
+struct Series {
+  CellKey key;
+  std::vector<Result*> cells;
+};
+
+std::vector<Series> series_of(Results& results) {
+  std::vector<Series> out;
+  for (Result& result : results.results) {
+    if (!result.quality || !result.error) continue;
+    CellKey key = result.key;
+    key.params.erase(result.quality->parameter);
+    auto found = std::find_if(out.begin(), out.end(), [&](const Series& series) { return series.key == key; });
+    if (found == out.end()) {
+      out.push_back({key, {}});
+      found = out.end() - 1;
+    }
+    found->cells.push_back(&result);
+  }
+  return out;
+}
+
+bool order_expected(const std::vector<Experiment>& experiments, const CellKey& key) {
+  for (const Experiment& experiment : experiments)
+    if (experiment.name == key.experiment)
+      for (const std::string& scene : experiment.expect_order_on)
+        if (std::filesystem::path(scene).stem().string() == key.scene) return true;
+  return false;
+}
+
+// Coarse first: the error of the first and last value say which way the axis runs where the step itself does not.
+void sort_cells(std::vector<Result*>& cells) {
+  std::sort(cells.begin(), cells.end(),
+            [](const Result* a, const Result* b) { return a->quality->value > b->quality->value; });
+}
+
+void judge(Convergence& row, const OrderFit& fit, bool expected_here) {
+  if (fit.points == 0) {
+    row.verdict = "not resolved";
+    row.reason = "fewer than three values where the error falls steadily above the reference's bound";
+  } else if (!(row.expected > 0) || !expected_here) {
+    row.verdict = "not stated";
+    row.reason = row.expected > 0 ? "the scene's field is not smooth" : "the method states no order here";
+  } else if (fit.order >= row.expected - kOrderTolerance) {
+    row.verdict = "pass";
+    row.reason = fit.order > row.expected + kOrderTolerance ? "converges faster than expected" : "";
+  } else {
+    row.verdict = "fail";
+    row.reason =
+        fmt::format("fitted order {:.2f}, expected {:.2f} within {}", fit.order, row.expected, kOrderTolerance);
+  }
+}
+
+Convergence converge(const Series& series, bool expected_here) {
+  Convergence row;
+  row.key = series.key;
+  row.parameter = series.cells.front()->quality->parameter;
+  row.expected = series.cells.front()->order.expected;
+  double bound = 0;
+  for (const Result* cell : series.cells) {
+    row.values.push_back(cell->quality->value);
+    row.errors.push_back(cell->error->worst.rmse);
+    for (const ViewResult& view : cell->views)
+      if (view.reference) bound = std::max(bound, view.reference->bound);
+  }
+  const OrderFit fit = fit_order(row.values, row.errors, bound);
+  row.fitted_points = fit.points;
+  row.fitted = fit.order;
+  row.fitted_lo = fit.lo;
+  row.fitted_hi = fit.hi;
+  row.floor = fit.floor;
+  judge(row, fit, expected_here);
+  return row;
+}
+
+}  // namespace
+
+void fit_convergence(Results& results, const std::vector<Experiment>& experiments) {
+  results.convergence.clear();
+  for (Series& series : series_of(results)) {
+    if (series.cells.size() < 2) continue;
+    sort_cells(series.cells);
+    Convergence row = converge(series, order_expected(experiments, series.key));
+    for (Result* cell : series.cells) {
+      cell->order.fitted.reset();
+      if (row.fitted_points > 0) cell->order.fitted = row.fitted;
+    }
+    results.convergence.push_back(std::move(row));
+  }
+}
+
+}  // namespace volumark

@@ -1,0 +1,153 @@
+#include "harness/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "harness/paths.h"
+#include "scenes/errors.h"
+#include "scenes/nearest.h"
+
+namespace volumark {
+namespace {
+
+bool passes(const std::vector<std::string>& wanted, const std::string& name) {
+  return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
+}
+
+std::string scene_name(const std::string& name_or_path) { return std::filesystem::path(name_or_path).stem().string(); }
+
+// A filter that names nothing in the experiments is a mistake, not an empty run.
+void check_filter(const std::vector<std::string>& wanted, const std::set<std::string>& there, const char* what) {
+  const std::vector<std::string> names(there.begin(), there.end());
+  for (const std::string& name : wanted)
+    if (!there.contains(name))
+      throw SceneError(fmt::format("{} \"{}\" is not in the experiment{}; it has: {}", what, name,
+                                   did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+void check_filters(const std::vector<Experiment>& experiments, const CellFilter& filter) {
+  std::set<std::string> scenes, methods, backends, parameters;
+  for (const Experiment& experiment : experiments) {
+    for (const std::string& scene : experiment.scenes) scenes.insert(scene_name(scene));
+    backends.insert(experiment.backends.begin(), experiment.backends.end());
+    for (const ExperimentMethod& method : experiment.methods) {
+      methods.insert(method.method->info().name);
+      for (const auto& [name, unused] : method.values) parameters.insert(name);
+    }
+  }
+  check_filter(filter.scenes, scenes, "scene");
+  check_filter(filter.methods, methods, "method");
+  std::vector<std::string> names;
+  for (const auto& [name, unused] : filter.only) names.push_back(name);
+  check_filter(names, parameters, "parameter");
+}
+
+bool same_value(const Value& value, const std::string& text) {
+  if (to_string(value) == text) return true;
+  try {  // 0.50 and 0.5
+    size_t used = 0;
+    const double number = std::stod(text, &used);
+    if (used != text.size()) return false;
+    if (const auto* real = std::get_if<double>(&value)) return *real == number;
+    if (const auto* whole = std::get_if<int64_t>(&value)) return static_cast<double>(*whole) == number;
+  } catch (const std::exception&) {  // no number
+  }
+  return false;
+}
+
+bool passes(const CellFilter& filter, const Values& values) {
+  return std::all_of(filter.only.begin(), filter.only.end(), [&](const auto& wanted) {
+    const auto found = values.find(wanted.first);
+    return found != values.end() && same_value(found->second, wanted.second);
+  });
+}
+
+double number_of(const Value& value) {
+  if (const auto* whole = std::get_if<int64_t>(&value)) return static_cast<double>(*whole);
+  const auto* real = std::get_if<double>(&value);
+  return real == nullptr ? 0 : *real;
+}
+
+// Shell quoting where a word needs it.
+std::string quoted(const std::string& word) {
+  if (!word.empty() &&
+      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,") ==
+          std::string::npos)
+    return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+std::string command_of(const Experiment& experiment, const CellKey& key) {
+  const bool shipped = std::filesystem::path(experiment.path).parent_path() == experiment_directory();
+  std::string out =
+      fmt::format("volumark run {} --scene {} --method {} --backend {}",
+                  quoted(shipped ? experiment.name : experiment.path), quoted(key.scene), key.method, key.backend);
+  // Only what tells this cell from the others of its method.
+  for (const auto& [name, value] : key.params) {
+    std::set<std::string> seen;
+    for (const ExperimentMethod& method : experiment.methods) {
+      if (method.method->info().name != key.method) continue;
+      if (method.quality_axis == name && !method.sweep.empty())
+        for (const double v : method.sweep) seen.insert(fmt::format("{}", v));
+      else
+        seen.insert(to_string(method.values.at(name)));
+    }
+    if (seen.size() > 1) out += " --only " + quoted(name + "=" + to_string(value));
+  }
+  return out;
+}
+
+Group make_group(const Experiment& experiment, const std::string& scene, const ExperimentMethod& method,
+                 const Values& values, const CellFilter& filter) {
+  Group group;
+  group.experiment = &experiment;
+  group.scene = scene;
+  group.method = method.method;
+  group.values = values;
+  if (!method.quality_axis.empty())
+    group.quality = Quality{method.quality_axis, number_of(values.find(method.quality_axis)->second)};
+  for (const std::string& backend : experiment.backends) {
+    if (!passes(filter.backends, backend)) continue;
+    Cell cell;
+    cell.backend = backend;
+    cell.key = {experiment.name, scene_name(scene), method.method->info().name, backend, values};
+    cell.command = command_of(experiment, cell.key);
+    group.cells.push_back(std::move(cell));
+  }
+  return group;
+}
+
+}  // namespace
+
+std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter) {
+  check_filters(experiments, filter);
+  std::vector<Group> groups;
+  for (const Experiment& experiment : experiments)
+    for (const std::string& scene : experiment.scenes) {
+      if (!passes(filter.scenes, scene_name(scene))) continue;
+      for (const ExperimentMethod& method : experiment.methods) {
+        if (!passes(filter.methods, method.method->info().name)) continue;
+        const std::vector<double> sweep =
+            method.sweep.empty() ? std::vector<double>{std::nan("")} : method.sweep;  // NaN: as it is
+        for (const double quality : sweep) {
+          Values values = method.values;
+          if (!std::isnan(quality))
+            set_value(method.method->info().parameters, values, method.quality_axis, nlohmann::json(quality));
+          if (!passes(filter, values)) continue;
+          Group group = make_group(experiment, scene, method, values, filter);
+          group.finest = std::isnan(quality) || quality == sweep.back();
+          if (!group.cells.empty()) groups.push_back(std::move(group));
+        }
+      }
+    }
+  return groups;
+}
+
+}  // namespace volumark

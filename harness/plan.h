@@ -1,0 +1,39 @@
+// An experiment spelt out: the cells in the order in which they run. Cells of a group differ in the backend alone;
+// their images are compared with each other.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "harness/experiment.h"
+#include "reports/results.h"
+
+namespace volumark {
+
+struct Cell {
+  CellKey key;
+  std::string backend;
+  std::string command;  // runs this cell alone
+};
+
+struct Group {
+  const Experiment* experiment = nullptr;  // outlives the plan
+  std::string scene;                       // as the experiment names it
+  const Method* method = nullptr;
+  Values values;
+  std::optional<Quality> quality;
+  bool finest = false;  // the last value of its sweep
+  std::vector<Cell> cells;
+};
+
+// What is left of the experiments; empty vectors filter nothing.
+struct CellFilter {
+  std::vector<std::string> scenes, methods, backends;
+  std::vector<std::pair<std::string, std::string>> only;  // parameter = value, as on the command line
+};
+
+// Scene by scene, method, quality value, backend. Throws SceneError where a filter names what no experiment has.
+std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter);
+
+}  // namespace volumark

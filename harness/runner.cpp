@@ -1,0 +1,303 @@
+#include "harness/runner.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "harness/convergence.h"
+#include "harness/environment.h"
+#include "harness/metrics/metrics.h"
+#include "harness/progress.h"
+#include "harness/run_folder.h"
+#include "harness/scene_context.h"
+#include "scenes/sha256.h"
+
+namespace volumark {
+namespace {
+
+std::string short_name(const Group& group, const Cell& cell) {
+  std::string name = fmt::format("{} {} {}", cell.key.scene, cell.key.method, cell.backend);
+  if (group.quality) name += fmt::format(" {}={:g}", group.quality->parameter, group.quality->value);
+  return name;
+}
+
+std::string summary(const Result& result) {
+  std::string text = to_string(result.outcome);
+  if (result.metrics && result.metrics->frame_wall.stats.count > 0)
+    text += fmt::format("  {}", duration_text(result.metrics->frame_wall.stats.median));
+  if (result.error) text += fmt::format("  rmse {:.2e}", result.error->worst.rmse);
+  if (!result.reason.empty()) text += "  (" + result.reason + ")";
+  return text;
+}
+
+Result* find(Results& results, const CellKey& key) {
+  const auto found = std::find_if(results.results.begin(), results.results.end(),
+                                  [&](const Result& result) { return result.key == key; });
+  return found == results.results.end() ? nullptr : &*found;
+}
+
+class Runner {
+ public:
+  explicit Runner(const RunOptions& options)
+      : options_(options), cache_(options.cache), folder_(options.out), store_(options.out) {
+    for (const std::string& name : options.experiments) {
+      experiments_.push_back(load_experiment(name));
+      if (!options.images) experiments_.back().images = Experiment::Images::None;
+    }
+    groups_ = plan_cells(experiments_, options.filter);
+  }
+
+  RunOutcome run();
+
+ private:
+  void start();
+  void describe();
+  void run_scene(size_t begin, size_t end, Progress& progress);
+  void run_group(const Group& group, const SceneContext& context, Progress& progress);
+  bool done_before(const Cell& cell, const Group& group, const SceneContext& context);
+  Result died(const Group& group, const Cell& cell, const SceneContext& context) const;
+  void compare_backends(const Group& group, const SceneContext& context,
+                        const std::vector<std::map<int, Image>>& images, Progress& progress);
+  void note_backend(const BackendInfo& info);
+  void collect_bad_news();
+
+  const RunOptions& options_;
+  ReferenceCache cache_;
+  std::vector<Experiment> experiments_;
+  std::vector<Group> groups_;
+  RunFolder folder_;
+  PictureStore store_;
+  RunOutcome out_;
+};
+
+void Runner::start() {
+  std::optional<Results> earlier = folder_.earlier();
+  const GitInfo git = git_info();
+  if (earlier && earlier->run.finished_at.empty() && !options_.resume && !options_.overwrite)
+    throw FolderError(
+        fmt::format("{}: holds an unfinished run of {} cells: go on with --resume, or throw it away with "
+                    "--overwrite",
+                    folder_.path().string(), earlier->results.size()));
+  if (earlier && options_.resume) {
+    if (earlier->git.sha != git.sha)
+      throw FolderError(
+          fmt::format("{}: its results are of commit {}, this program is of commit {}: they cannot be "
+                      "mixed; choose another folder with --out, or --overwrite",
+                      folder_.path().string(), earlier->git.sha, git.sha));
+    out_.results = std::move(*earlier);
+    ++out_.results.run.resumed;
+    out_.results.run.interrupted = false;
+    out_.results.run.finished_at.clear();
+    return;
+  }
+  Results& results = out_.results;
+  results.run.started_at = utc_now();
+  results.run.id = results.run.started_at + "-" + std::to_string(::getpid());
+  results.run.argv = options_.argv;
+  results.run.order = "scene, method, quality value, backend; views in turn within a pass";
+  results.run.seed = 1;
+  results.git = git;
+  results.build = build_info();
+  results.machine = machine_info();
+}
+
+void Runner::describe() {
+  Results& results = out_.results;
+  results.experiments.clear();
+  for (const Experiment& experiment : experiments_) {
+    ExperimentResultInfo info{experiment.name, experiment.title, experiment.description, experiment.limits};
+    for (const auto& [metric, limit] : experiment.finest_limits) info.limits["finest_" + metric] = limit;
+    if (experiment.parity > 0) info.limits["parity"] = experiment.parity;
+    results.experiments.push_back(std::move(info));
+    for (const ExperimentMethod& entry : experiment.methods) {
+      const MethodInfo& method = entry.method->info();
+      if (std::any_of(results.methods.begin(), results.methods.end(),
+                      [&](const auto& m) { return m.name == method.name; }))
+        continue;
+      MethodResultInfo described{method.name, method.title, method.paper, {}};
+      for (const ParameterInfo& parameter : method.parameters)
+        described.parameters.push_back({parameter.name, parameter.unit, parameter.doc, parameter.quality_axis});
+      results.methods.push_back(std::move(described));
+    }
+  }
+  results.self_test.clear();
+  for (const SelfTest& row : metric_self_test())
+    results.self_test.push_back({"metric", row.name, "", row.expected, row.measured, row.tolerance, row.pass()});
+}
+
+void Runner::note_backend(const BackendInfo& info) {
+  for (const BackendResultInfo& known : out_.results.backends)
+    if (known.id == info.id) return;
+  out_.results.backends.push_back(backend_result_info(info));
+}
+
+bool Runner::done_before(const Cell& cell, const Group& group, const SceneContext& context) {
+  const Result* old = find(out_.results, cell.key);
+  return old != nullptr && old->case_version == case_version(group, context);
+}
+
+Result Runner::died(const Group& group, const Cell& cell, const SceneContext& context) const {
+  Result result;
+  result.key = cell.key;
+  result.case_version = case_version(group, context);
+  result.outcome = Outcome::Failed;
+  result.reason = "the process died twice while it measured this cell";
+  result.effects = effect_names(context.scene.effects);
+  result.width = context.width;
+  result.height = context.height;
+  result.quality = group.quality;
+  result.command = cell.command;
+  result.finished_at = utc_now();
+  return result;
+}
+
+void Runner::run_group(const Group& group, const SceneContext& context, Progress& progress) {
+  std::vector<std::map<int, Image>> images(group.cells.size());
+  std::vector<bool> before(group.cells.size());
+  for (size_t i = 0; i < group.cells.size(); ++i) {
+    const Cell& cell = group.cells[i];
+    if (options_.resume && done_before(cell, group, context)) {
+      before[i] = true;
+      ++out_.skipped;
+      progress.skip();
+      continue;
+    }
+    Result result;
+    const auto deaths = folder_.died_in().find(key_text(cell.key));
+    if (options_.resume && deaths != folder_.died_in().end() && deaths->second >= 2) {
+      result = died(group, cell, context);
+    } else {
+      folder_.begin_cell(cell.key);
+      std::optional<BackendInfo> backend;
+      try {
+        result = run_cell(group, cell, context, options_.cell, store_, backend, images[i]);
+      } catch (const Interrupted&) {
+        folder_.drop_cell(cell.key);
+        throw;
+      }
+      if (backend) note_backend(*backend);
+    }
+    folder_.end_cell(result);
+    progress.cell(short_name(group, cell), summary(result));
+    if (Result* old = find(out_.results, cell.key))
+      *old = std::move(result);
+    else
+      out_.results.results.push_back(std::move(result));
+    folder_.save(out_.results, false);
+  }
+  if (group.experiment->parity <= 0 || std::all_of(before.begin(), before.end(), [](bool b) { return b; })) return;
+  for (size_t i = 0; i < group.cells.size(); ++i) {
+    const Result* old = before[i] ? find(out_.results, group.cells[i].key) : nullptr;
+    if (old != nullptr && old->metrics) images[i] = draw_cell(group, group.cells[i], context, options_.cell);
+  }
+  compare_backends(group, context, images, progress);
+}
+
+// Every backend with the first that drew: a difference between two others shows there too.
+void Runner::compare_backends(const Group& group, const SceneContext& context,
+                              const std::vector<std::map<int, Image>>& images, Progress& progress) {
+  const auto first = std::find_if(images.begin(), images.end(), [](const auto& views) { return !views.empty(); });
+  if (first == images.end()) return;
+  const CellKey& key = group.cells[static_cast<size_t>(first - images.begin())].key;
+  std::erase_if(out_.results.parity, [&](const ParityRow& row) { return row.key == key; });
+  ParityLimits limits;
+  limits.difference = group.experiment->parity;
+  for (auto other = first + 1; other != images.end(); ++other)
+    for (const int view : context.views) {
+      if (!first->contains(view) || !other->contains(view)) continue;
+      const Parity found = parity(first->at(view), other->at(view), limits);
+      ParityRow row;
+      row.key = key;
+      row.other = group.cells[static_cast<size_t>(other - images.begin())].backend;
+      row.view = view;
+      row.interior_pixels = found.interior_pixels;
+      row.interior_over = found.interior_over;
+      row.interior_max = found.interior_max;
+      row.silhouette_pixels = found.silhouette_pixels;
+      row.silhouette_over = found.silhouette_over;
+      row.silhouette_max = found.silhouette_max;
+      row.limit = limits.difference;
+      row.ok = found.interior_over == 0;
+      if (!row.ok)
+        progress.line(fmt::format("      {} and {} differ by {:.2e} in {} interior pixels (view {}, limit {:g})",
+                                  key.backend, row.other, row.interior_max, row.interior_over, view, row.limit));
+      out_.results.parity.push_back(std::move(row));
+    }
+}
+
+void Runner::run_scene(size_t begin, size_t end, Progress& progress) {
+  const Group& group = groups_[begin];
+  SceneContext context = make_context(*group.experiment, group.scene, options_.data);
+  bool all_before = options_.resume;
+  for (size_t i = begin; i < end && all_before; ++i)
+    for (const Cell& cell : groups_[i].cells) all_before = all_before && done_before(cell, groups_[i], context);
+  if (all_before) {
+    for (size_t i = begin; i < end; ++i)
+      for ([[maybe_unused]] const Cell& cell : groups_[i].cells) {
+        ++out_.skipped;
+        progress.skip();
+      }
+    return;
+  }
+  make_references(context, *group.experiment, cache_, store_, options_.cell.device.threads, options_.cell.stop,
+                  progress);
+  std::erase_if(out_.results.scenes, [&](const SceneResultInfo& info) { return info.name == context.scene.name; });
+  out_.results.scenes.push_back(scene_result_info(context.scene));
+  for (size_t i = begin; i < end; ++i) run_group(groups_[i], context, progress);
+}
+
+void Runner::collect_bad_news() {
+  const Results& results = out_.results;
+  for (const Result& result : results.results)
+    if (result.outcome != Outcome::Ok && result.outcome != Outcome::Unsupported)
+      out_.bad_news.push_back(fmt::format("{}: {}: {}", to_string(result.outcome), result.command, result.reason));
+  for (const ParityRow& row : results.parity)
+    if (!row.ok)
+      out_.bad_news.push_back(fmt::format(
+          "parity: {} {} view {}: {} and {} differ by {:.2e} in {} interior pixels, limit {:g}", row.key.scene,
+          row.key.method, row.view, row.key.backend, row.other, row.interior_max, row.interior_over, row.limit));
+  for (const Convergence& row : results.convergence)
+    if (row.verdict == "fail")
+      out_.bad_news.push_back(
+          fmt::format("convergence: {} {} {}: {}", row.key.scene, row.key.method, row.key.backend, row.reason));
+  for (const SelfTestRow& row : results.self_test)
+    if (!row.ok)
+      out_.bad_news.push_back(
+          fmt::format("metric self test: {}: expected {}, measured {}", row.name, row.expected, row.measured));
+}
+
+RunOutcome Runner::run() {
+  for (const Group& group : groups_) load_scene(group.scene);  // a broken scene file is an error before any work
+  start();
+  describe();
+  size_t cells = 0;
+  for (const Group& group : groups_) cells += group.cells.size();
+  folder_.save(out_.results, true);
+  {
+    Progress progress(options_.progress, cells);
+    try {
+      for (size_t begin = 0, end = 0; begin < groups_.size(); begin = end) {
+        while (end < groups_.size() && groups_[end].scene == groups_[begin].scene &&
+               groups_[end].experiment == groups_[begin].experiment)
+          ++end;
+        run_scene(begin, end, progress);
+      }
+    } catch (const Interrupted&) {
+      out_.interrupted = true;
+    }
+  }
+  fit_convergence(out_.results, experiments_);
+  out_.results.run.interrupted = out_.interrupted;
+  if (!out_.interrupted) out_.results.run.finished_at = utc_now();
+  out_.results.machine.load_after = load_average();
+  folder_.save(out_.results, true);
+  collect_bad_news();
+  return std::move(out_);
+}
+
+}  // namespace
+
+RunOutcome run_experiments(const RunOptions& options) { return Runner(options).run(); }
+
+}  // namespace volumark

@@ -1,0 +1,78 @@
+#include "harness/scene_context.h"
+
+#include <fmt/format.h>
+
+#include "harness/image_io.h"
+#include "scenes/errors.h"
+
+namespace volumark {
+
+SceneContext make_context(const Experiment& experiment, const std::string& scene, const DataOptions& data) {
+  SceneContext context;
+  context.scene = load_scene(scene);
+  try {
+    load_data(context.scene, data);
+  } catch (const DataMissing& missing) {
+    context.missing = fmt::format("data not installed: {}; to get them: {}", missing.what(), missing.how_to_get);
+  } catch (const std::exception& error) {
+    context.broken = error.what();
+  }
+  context.width = experiment.width.value_or(context.scene.width);
+  context.height = experiment.height.value_or(context.scene.height);
+  context.views = chosen_views(experiment, static_cast<int>(context.scene.views.size()));
+  if (context.views.empty()) context.broken = "the scene has none of the experiment's views";
+  return context;
+}
+
+void make_references(SceneContext& context, const Experiment& experiment, const ReferenceCache& cache,
+                     const PictureStore& store, int threads, const std::atomic<bool>* stop, Progress& progress) {
+  if (context.missing || context.broken) return;
+  ReferenceOptions options;
+  options.tolerance = experiment.reference_tolerance;
+  options.threads = threads;
+  try {
+    for (const int index : context.views) {
+      if (stop != nullptr && stop->load()) throw Interrupted{};
+      const View& view = context.scene.views[static_cast<size_t>(index)];
+      bool cached = false;
+      const Instant start = now();
+      Reference reference = cache.get(context.scene, view, context.width, context.height, options, &cached);
+      if (!cached)
+        progress.line(fmt::format("reference {} view {}: {} (bound {:.1e})", context.scene.name, index,
+                                  duration_text(since(start).wall), reference.max_bound));
+      context.reference_infos[index] = {reference_key(context.scene, view, context.width, context.height, options),
+                                        pixel_hash(reference.image), reference.max_bound, reference.estimate};
+      const bool kept = experiment.images == Experiment::Images::All ||
+                        (experiment.images == Experiment::Images::First && index == context.views.front());
+      if (kept)
+        context.reference_files[index] = store.linear(
+            fmt::format("{}/reference-{}x{}-v{}", context.scene.name, context.width, context.height, index),
+            reference.image, context.scene.background);
+      context.references[index] = std::move(reference);
+    }
+  } catch (const ImageError&) {
+    throw;  // the folder, not the scene
+  } catch (const std::exception& error) {
+    context.broken = fmt::format("the reference cannot be made: {}", error.what());
+  }
+}
+
+SceneResultInfo scene_result_info(const Scene& scene) {
+  SceneResultInfo out;
+  out.name = scene.name;
+  out.title = scene.title;
+  out.description = scene.description;
+  out.hash = scene.hash;
+  if (scene.volume) {
+    out.voxels = {scene.volume->size.x, scene.volume->size.y, scene.volume->size.z};
+    out.voxel_type = to_string(scene.volume->type);
+  }
+  out.licence = scene.source.licence;
+  out.origin = scene.source.origin;
+  out.effects = effect_names(scene.effects);
+  for (const View& view : scene.views) out.views.push_back(view.name);
+  out.background = {scene.background.r, scene.background.g, scene.background.b};
+  return out;
+}
+
+}  // namespace volumark

@@ -1,0 +1,120 @@
+#include "harness/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <stdexcept>
+
+namespace volumark {
+namespace {
+
+double sorted_percentile(const std::vector<double>& sorted, double p) {
+  const double position = std::clamp(p, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<size_t>(position);
+  const size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+double median_in_place(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+// Two-sided 97.5 % point of Student's t.
+double student_t(int freedom) {
+  constexpr double kTable[] = {12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
+  return freedom <= 10 ? kTable[freedom - 1] : 1.96 + 2.4 / freedom;
+}
+
+}  // namespace
+
+double percentile(std::vector<double> samples, double p) {
+  if (samples.empty()) throw std::invalid_argument("percentile of no samples");
+  std::sort(samples.begin(), samples.end());
+  return sorted_percentile(samples, p);
+}
+
+double median(std::vector<double> samples) {
+  if (samples.empty()) throw std::invalid_argument("median of no samples");
+  return median_in_place(samples);
+}
+
+Interval bootstrap_median(std::span<const double> samples, std::span<const int64_t> strata, int resamples,
+                          uint64_t seed) {
+  if (samples.empty()) throw std::invalid_argument("bootstrap of no samples");
+  if (!strata.empty() && strata.size() != samples.size()) throw std::invalid_argument("one stratum a sample expected");
+  std::map<int64_t, std::vector<double>> groups;
+  for (size_t i = 0; i < samples.size(); ++i) groups[strata.empty() ? 0 : strata[i]].push_back(samples[i]);
+  std::mt19937_64 random(seed);
+  std::vector<double> medians, drawn;
+  for (int r = 0; r < resamples; ++r) {
+    drawn.clear();
+    for (const auto& [unused, group] : groups)
+      for (size_t i = 0; i < group.size(); ++i) drawn.push_back(group[random() % group.size()]);
+    medians.push_back(median_in_place(drawn));
+  }
+  std::sort(medians.begin(), medians.end());
+  return {sorted_percentile(medians, 0.025), sorted_percentile(medians, 0.975)};
+}
+
+Stats stats_of(std::span<const double> samples, std::span<const int64_t> strata, uint64_t seed) {
+  Stats stats;
+  stats.count = static_cast<int64_t>(samples.size());
+  if (samples.empty()) return stats;
+  std::vector<double> sorted(samples.begin(), samples.end());
+  std::sort(sorted.begin(), sorted.end());
+  stats.median = sorted_percentile(sorted, 0.5);
+  stats.p5 = sorted_percentile(sorted, 0.05);
+  stats.p95 = sorted_percentile(sorted, 0.95);
+  stats.min = sorted.front();
+  stats.max = sorted.back();
+  for (const double value : sorted) stats.mean += value;
+  stats.mean /= static_cast<double>(sorted.size());
+  const Interval interval = bootstrap_median(samples, strata, 400, seed);
+  stats.median_lo = interval.lo;
+  stats.median_hi = interval.hi;
+  return stats;
+}
+
+OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise) {
+  if (steps.size() != errors.size()) throw std::invalid_argument("one error a step expected");
+  OrderFit fit;
+  // The stretch ends where the error stops falling, or comes within three bounds of what the reference knows.
+  size_t end = 0;
+  while (end < errors.size() && std::isfinite(errors[end]) && errors[end] > 3 * noise && errors[end] > 0) {
+    if (end > 0 && errors[end] > errors[end - 1] * std::sqrt(steps[end] / steps[end - 1])) break;
+    ++end;
+  }
+  if (end < errors.size() && end > 0) fit.floor = *std::min_element(errors.begin(), errors.end());
+  if (end < 3) return fit;
+  const auto slope = [&](size_t i) { return std::log(errors[i] / errors[i + 1]) / std::log(steps[i] / steps[i + 1]); };
+  size_t begin = end - 2;  // of the finest pair
+  while (begin > 0 && std::abs(slope(begin - 1) - slope(end - 2)) <= 0.5) --begin;
+  if (end - begin < 3) return fit;
+  const auto n = static_cast<double>(end - begin);
+  double mean_x = 0, mean_y = 0, xx = 0, xy = 0, residual = 0;
+  for (size_t i = begin; i < end; ++i) {
+    mean_x += std::log(steps[i]) / n;
+    mean_y += std::log(errors[i]) / n;
+  }
+  for (size_t i = begin; i < end; ++i) {
+    const double x = std::log(steps[i]) - mean_x;
+    xx += x * x;
+    xy += x * (std::log(errors[i]) - mean_y);
+  }
+  fit.points = static_cast<int>(end - begin);
+  fit.order = xy / xx;
+  for (size_t i = begin; i < end; ++i) {
+    const double r = std::log(errors[i]) - mean_y - fit.order * (std::log(steps[i]) - mean_x);
+    residual += r * r;
+  }
+  const double half = student_t(fit.points - 2) * std::sqrt(residual / (n - 2) / xx);
+  fit.lo = fit.order - half;
+  fit.hi = fit.order + half;
+  return fit;
+}
+
+}  // namespace volumark

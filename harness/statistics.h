@@ -1,0 +1,39 @@
+// Order statistics of timing samples, bootstrap intervals and the fitted order of convergence. Deterministic: the same
+// samples and seed give the same figures.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reports/results.h"
+
+namespace volumark {
+
+// Linear interpolation between order statistics (R type 7), p in [0, 1]. Throws std::invalid_argument for no samples.
+double percentile(std::vector<double> samples, double p);
+double median(std::vector<double> samples);
+
+struct Interval {
+  double lo = 0, hi = 0;
+};
+// 95 % percentile-bootstrap interval of the median. `strata` (empty, or one a sample): samples are drawn anew within
+// each stratum only, since which views were measured is not chance. Throws std::invalid_argument for no samples.
+Interval bootstrap_median(std::span<const double> samples, std::span<const int64_t> strata = {}, int resamples = 400,
+                          uint64_t seed = 1);
+
+// All of Stats; zero count for no samples.
+Stats stats_of(std::span<const double> samples, std::span<const int64_t> strata = {}, uint64_t seed = 1);
+
+struct OrderFit {
+  int points = 0;                    // that the line was fitted through; 0: fewer than 3 usable ones
+  double order = 0, lo = 0, hi = 0;  // slope of log(error) over log(step), and its 95 % interval
+  double floor = 0;  // smallest error, where the error stops falling before the finest step; 0: it never stops
+};
+// error ~ step^order. `steps` falls from coarse to fine. Fitted through the longest stretch in which the error falls by
+// at least the ratio that half an order would give and stays above `noise` (the reference's bound); coarse steps
+// outside of the asymptotic range are left out where the local slope differs from the finest usable one by more than
+// 0.5.
+OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise);
+
+}  // namespace volumark
