@@ -265,6 +265,51 @@ HWY_INLINE Rgba load_entries(const float* entries, Ints index) {
   return {r, g, b, a};
 }
 
+// entries[index] + t (entries[index + 1] - entries[index]): one 256-bit load a lane brings both entries, the
+// interpolation is done on whole entries (four of them to a vector, one a 128-bit block) and the transpose comes last.
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+#if HWY_TARGET <= HWY_AVX3
+// Entries of lanes k, 4 + k, 8 + k, 12 + k, interpolated.
+template <int k>
+HWY_INLINE __m512 lerp_four_entries(const float* entries, const int32_t* index, __m512 t) {
+  const auto two = [&](int a, int b) HWY_ATTR {
+    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[a]))),
+                              _mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[b])), 1);
+  };
+  const __m512 low = two(k, 4 + k), high = two(8 + k, 12 + k);
+  const __m512 first = _mm512_shuffle_f32x4(low, high, 0x88), second = _mm512_shuffle_f32x4(low, high, 0xDD);
+  return _mm512_fmadd_ps(_mm512_shuffle_ps(t, t, k * 0x55), _mm512_sub_ps(second, first), first);
+}
+#else
+template <int k>
+HWY_INLINE __m256 lerp_four_entries(const float* entries, const int32_t* index, __m256 t) {
+  const __m256 low = _mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[k]));
+  const __m256 high = _mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[4 + k]));
+  const __m256 first = _mm256_permute2f128_ps(low, high, 0x20), second = _mm256_permute2f128_ps(low, high, 0x31);
+  return _mm256_fmadd_ps(_mm256_shuffle_ps(t, t, k * 0x55), _mm256_sub_ps(second, first), first);
+}
+#endif
+HWY_INLINE Rgba lerp_entries(const float* entries, Ints index, Floats t) {
+  const FloatTag d;
+  const hn::Repartition<double, FloatTag> d64;
+  alignas(64) int32_t at[kMaxLanes];
+  hn::Store(index, IntTag(), at);
+  const Floats e0{lerp_four_entries<0>(entries, at, t.raw)}, e1{lerp_four_entries<1>(entries, at, t.raw)};
+  const Floats e2{lerp_four_entries<2>(entries, at, t.raw)}, e3{lerp_four_entries<3>(entries, at, t.raw)};
+  // Transposes every 4 x 4 block.
+  const auto rg01 = hn::BitCast(d64, hn::InterleaveLower(d, e0, e1)),
+             rg23 = hn::BitCast(d64, hn::InterleaveLower(d, e2, e3));
+  const auto ba01 = hn::BitCast(d64, hn::InterleaveUpper(d, e0, e1)),
+             ba23 = hn::BitCast(d64, hn::InterleaveUpper(d, e2, e3));
+  return {hn::BitCast(d, hn::InterleaveLower(d64, rg01, rg23)), hn::BitCast(d, hn::InterleaveUpper(d64, rg01, rg23)),
+          hn::BitCast(d, hn::InterleaveLower(d64, ba01, ba23)), hn::BitCast(d, hn::InterleaveUpper(d64, ba01, ba23))};
+}
+#else
+HWY_INLINE Rgba lerp_entries(const float* entries, Ints index, Floats t) {
+  return lerp(load_entries(entries, index), load_entries(entries + 4, index), t);
+}
+#endif
+
 // texture(sampler1D, u): linear and clamped RGBA32F tables by entry, everything else generic.
 HWY_INLINE Rgba sample_1d(const CpuTexture& texture, Floats u) {
   if (texture.format == Format::RGBA32F && texture.sampler == Sampler{Filter::Linear, Wrap::Clamp}) {
@@ -275,7 +320,7 @@ HWY_INLINE Rgba sample_1d(const CpuTexture& texture, Floats u) {
     const Floats at = hn::Min(hn::Max(hn::MulSub(u, n, hn::Set(d, 0.5F)), hn::Zero(d)), hn::Sub(n, splat(1.0F)));
     const Ints i = hn::ConvertTo(di, at);
     // The entry past the last one is padding that repeats the edge.
-    return lerp(load_entries(entries, i), load_entries(entries + 4, i), hn::Sub(at, hn::ConvertTo(d, i)));
+    return lerp_entries(entries, i, hn::Sub(at, hn::ConvertTo(d, i)));
   }
   const Floats zero = hn::Zero(FloatTag());
   return sample_generic(texture, u, zero, zero);

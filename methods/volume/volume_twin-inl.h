@@ -133,7 +133,7 @@ HWY_INLINE Rgba transfer(const VolumeBindings& b, Floats s) {
   const Floats x = hn::Mul(clamp01(s), last);
   const Ints i = hn::Min(hn::ConvertTo(di, x), hn::Set(di, b.transfer.width - 2));
   const auto* entries = reinterpret_cast<const float*>(b.transfer.data);
-  return lerp(load_entries(entries, i), load_entries(entries + 4, i), hn::Sub(x, hn::ConvertTo(d, i)));
+  return lerp_entries(entries, i, hn::Sub(x, hn::ConvertTo(d, i)));
 }
 
 HWY_INLINE Rgba transfer_segment(const VolumeBindings& b, Floats front, Floats back) {
@@ -148,8 +148,7 @@ HWY_INLINE Rgba transfer_segment(const VolumeBindings& b, Floats front, Floats b
   const auto* entries = reinterpret_cast<const float*>(b.preintegrated.data);
   const Floats fx = hn::Sub(x, hn::ConvertTo(d, ix)), fy = hn::Sub(y, hn::ConvertTo(d, iy));
   const float* next_row = entries + 4 * static_cast<ptrdiff_t>(row);
-  return lerp(lerp(load_entries(entries, i), load_entries(entries + 4, i), fx),
-              lerp(load_entries(next_row, i), load_entries(next_row + 4, i), fx), fy);
+  return lerp(lerp_entries(entries, i, fx), lerp_entries(next_row, i, fx), fy);
 }
 
 template <bool linear_opacity>
