@@ -101,7 +101,7 @@ bool Accumulator::add_unlit(const Piece& piece, const TransferSegment& segment) 
 }
 
 // Nested rules of 3, 7 and 15 points; bisects where they do not agree. The error is an estimate: the difference of two
-// rules is that of the coarser, and the finer one converges at about twice its rate.
+// rules is that of the coarser one, C rho^-n, and the finer one has twice its order: C rho^-2n, taken with C >= 1/100.
 void Accumulator::add_lit(const Chord& chord, const Piece& piece, const TransferSegment& segment, double v0, double v1,
                           int level) {
   const double middle = 0.5 * (v0 + v1), half = 0.5 * (v1 - v0);
@@ -109,8 +109,7 @@ void Accumulator::add_lit(const Chord& chord, const Piece& piece, const Transfer
   auto estimate = [&](const glm::dvec3& coarse, const glm::dvec3& fine) {
     const double difference = largest(fine - coarse), scale = largest(fine);
     if (scale == 0) return difference;
-    const double relative = 20 * difference / scale;
-    return scale * std::min(difference / scale, relative * std::sqrt(relative));
+    return std::min(difference, 100 * difference * difference / scale);
   };
   auto add_point = [&](const PattersonPoint& point) {
     const double v = middle + half * point.node, u = piece.u_middle + piece.u_half * v;

@@ -20,6 +20,13 @@ T voxel(const std::byte* data, size_t index) {
 
 }  // namespace
 
+template <typename T>
+void Lattice::use_type() {
+  load_ = &Lattice::load_as<T>;
+  load_block_ = &Lattice::load_block_as<T>;
+  range_ = &Lattice::brick_range<T>;
+}
+
 Lattice::Lattice(const Volume& volume)
     : volume_(volume),
       cells_(glm::max(volume.size - 1, glm::ivec3(1))),
@@ -32,20 +39,16 @@ Lattice::Lattice(const Volume& volume)
   }
   switch (volume.type) {
     case VoxelType::U8:
-      load_ = &Lattice::load_as<uint8_t>;
-      range_ = &Lattice::brick_range<uint8_t>;
+      use_type<uint8_t>();
       break;
     case VoxelType::U16:
-      load_ = &Lattice::load_as<uint16_t>;
-      range_ = &Lattice::brick_range<uint16_t>;
+      use_type<uint16_t>();
       break;
     case VoxelType::I16:
-      load_ = &Lattice::load_as<int16_t>;
-      range_ = &Lattice::brick_range<int16_t>;
+      use_type<int16_t>();
       break;
     case VoxelType::F32:
-      load_ = &Lattice::load_as<float>;
-      range_ = &Lattice::brick_range<float>;
+      use_type<float>();
       break;
   }
 }
@@ -74,13 +77,26 @@ void Lattice::load_as(const glm::ivec3& cell, Corners& out) const {
   }
 }
 
+template <typename T>
+void Lattice::load_block_as(const glm::ivec3& cell, Block& out) const {
+  size_t offset[3][4];
+  for (int a = 0; a < 3; ++a)
+    for (int i = 0; i < 4; ++i)
+      offset[a][i] =
+          static_cast<size_t>(std::clamp(cell[a] + i - 1, 0, volume_.size[a] - 1)) * stride_[static_cast<size_t>(a)];
+  const std::byte* data = volume_.voxels.data();
+  const double slope = volume_.slope, intercept = volume_.intercept;
+  for (size_t k = 0; k < 4; ++k)
+    for (size_t j = 0; j < 4; ++j)
+      for (size_t i = 0; i < 4; ++i)
+        out[k][j][i] =
+            static_cast<double>(voxel<T>(data, offset[0][i] + offset[1][j] + offset[2][k])) * slope + intercept;
+}
+
 void Lattice::load_gradients(const glm::ivec3& cell, CornerGradients& out) const {
-  // The block of samples cell - 1 .. cell + 2, clamped to the lattice; its eight outer corners are not needed.
-  double block[4][4][4];
-  for (int k = 0; k < 4; ++k)
-    for (int j = 0; j < 4; ++j)
-      for (int i = 0; i < 4; ++i) block[k][j][i] = volume_.at(cell.x + i - 1, cell.y + j - 1, cell.z + k - 1);
-  // Along an axis of one sample both corners are that sample: at() clamps, and its differences are 0.
+  Block block;
+  (this->*load_block_)(cell, block);
+  // Along an axis of one sample both corners are that sample, and clamping makes its differences 0.
   const glm::dvec3 scale = 0.5 / volume_.spacing;
   for (size_t c = 0; c < 8; ++c) {
     const size_t i = 1 + (c & 1), j = 1 + ((c >> 1) & 1), k = 1 + (c >> 2);

@@ -42,7 +42,13 @@ class Lattice {
 
  private:
   template <typename T>
+  void use_type();
+  template <typename T>
   void load_as(const glm::ivec3& cell, Corners& out) const;
+  // The samples of the cell and its neighbours, cell - 1 .. cell + 2 along each axis, indices clamped to the lattice.
+  using Block = double[4][4][4];
+  template <typename T>
+  void load_block_as(const glm::ivec3& cell, Block& out) const;
   template <typename T>
   void brick_range(const glm::ivec3& brick, double& lo, double& hi) const;
 
@@ -50,6 +56,7 @@ class Lattice {
   glm::ivec3 cells_, bricks_;
   std::array<size_t, 3> stride_, to_next_;  // voxels; to_next_ is 0 along an axis with one sample
   void (Lattice::*load_)(const glm::ivec3&, Corners&) const;
+  void (Lattice::*load_block_)(const glm::ivec3&, Block&) const;
   void (Lattice::*range_)(const glm::ivec3&, double&, double&) const;
   std::vector<uint8_t> empty_;
 };

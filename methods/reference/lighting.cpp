@@ -8,6 +8,8 @@
 namespace volumark {
 namespace {
 
+constexpr double kSmoothPower = 6;  // from this shininess on, max(0, n . h)^shininess needs no split at 0
+
 glm::dvec3 unit_or_zero(const glm::dvec3& v) {
   const double length = std::sqrt(glm::dot(v, v));
   return length > 0 ? v / length : glm::dvec3(0);
@@ -66,18 +68,41 @@ void RayLights::append_splits(const GradientChord& gradient, double t0, double l
         product[k + 1] += gradient[a][k] * change[axis];
       }
     }
-    const bool quartic = product[4] != 0;
-    const Roots roots = roots_between({product.data(), quartic ? size_t{5} : size_t{4}}, 0, 1);
+    const std::span<const double> polynomial(product.data(), product[4] != 0 ? 5 : 4);
+    if (one_sign_on_unit(polynomial)) return;
+    const Roots roots = roots_between(polynomial, 0, 1);
     for (int i = 0; i < roots.count; ++i) splits.push_back(roots.at[static_cast<size_t>(i)]);
   };
+  const bool kinked_highlights = lighting_.specular > 0 && lighting_.shininess < kSmoothPower;
   for (const LightOnRay& light : lights_) {
     if (light.point) {
       split_at_zeros(light.vector - t0 * direction_, -length * direction_);
+      if (kinked_highlights) append_highlight_edges(gradient, light, t0, length, splits);
     } else {
       split_at_zeros(light.vector, glm::dvec3(0));
-      // A high power is smooth enough at n . h = 0. (A point light's half vector is no polynomial: left to adaptivity.)
-      if (lighting_.specular > 0 && lighting_.shininess < 6) split_at_zeros(light.half, glm::dvec3(0));
+      if (kinked_highlights) split_at_zeros(light.half, glm::dvec3(0));
     }
+  }
+}
+
+// A point light's half vector is no polynomial of u: its side is sampled, and each change located by bisection.
+void RayLights::append_highlight_edges(const GradientChord& gradient, const LightOnRay& light, double t0, double length,
+                                       std::vector<double>& splits) const {
+  constexpr int samples = 16;
+  auto side = [&](double u) {
+    const glm::dvec3 to_light = unit_or_zero(light.vector - (t0 + u * length) * direction_);
+    const glm::dvec3 g(evaluate(gradient[0], u), evaluate(gradient[1], u), evaluate(gradient[2], u));
+    return glm::dot(g, to_light - direction_) > 0;
+  };
+  for (int i = 0; i < samples; ++i) {
+    double a = static_cast<double>(i) / samples, b = static_cast<double>(i + 1) / samples;
+    const bool before = side(a);
+    if (before == side(b)) continue;
+    for (int k = 0; k < 48; ++k) {
+      const double middle = 0.5 * (a + b);
+      (side(middle) == before ? a : b) = middle;
+    }
+    splits.push_back(0.5 * (a + b));
   }
 }
 

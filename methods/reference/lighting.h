@@ -29,6 +29,9 @@ class RayLights {
     glm::dvec3 half;    // directional lights
     glm::dvec3 colour;
   };
+  void append_highlight_edges(const GradientChord& gradient, const LightOnRay& light, double t0, double length,
+                              std::vector<double>& splits) const;
+
   const Lighting& lighting_;
   glm::dvec3 direction_;
   int whole_shininess_;  // the exponent where it is a whole number up to 1024, else -1

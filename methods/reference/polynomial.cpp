@@ -70,6 +70,19 @@ Roots roots_between(std::span<const double> c, double lo, double hi) {
   return roots;
 }
 
+bool one_sign_on_unit(std::span<const double> c) {
+  // b_k = sum over i <= k of binomial(k, i) / binomial(degree, i) c_i, by repeated addition of neighbours.
+  static constexpr double inverse_binomial[kMaxDegree + 1][kMaxDegree + 1] = {
+      {1}, {1, 1}, {1, 1.0 / 2, 1}, {1, 1.0 / 3, 1.0 / 3, 1}, {1, 1.0 / 4, 1.0 / 6, 1.0 / 4, 1}};
+  const size_t n = c.size();
+  std::array<double, kMaxDegree + 1> b;
+  for (size_t k = 0; k < n; ++k) b[k] = c[k] * inverse_binomial[n - 1][k];
+  for (size_t round = 1; round < n; ++round)
+    for (size_t k = n - 1; k >= round; --k) b[k] += b[k - 1];
+  const auto [least, most] = std::minmax_element(b.begin(), b.begin() + static_cast<std::ptrdiff_t>(n));
+  return *least > 0 || *most < 0;
+}
+
 double solve_monotone(const Cubic& c, double value, double a, double b) {
   const double value_a = evaluate(c, a) - value, value_b = evaluate(c, b) - value;
   if (value_a == 0) return a;

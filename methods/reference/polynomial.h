@@ -25,6 +25,9 @@ struct Roots {
 };
 Roots roots_between(std::span<const double> c, double lo, double hi);
 
+// Whether the Bernstein coefficients on [0, 1] all have one sign: then the polynomial has no zero there.
+bool one_sign_on_unit(std::span<const double> c);
+
 // The u in [a, b] where the cubic, monotone there, takes `value`, which lies between its values at a and b.
 double solve_monotone(const Cubic& c, double value, double a, double b);
 

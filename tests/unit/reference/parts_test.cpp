@@ -31,6 +31,24 @@ TEST(Polynomial, FindsSignChangesInOrder) {
   EXPECT_DOUBLE_EQ(roots_between(linear, 0, 1).at[0], 0.25);
 }
 
+TEST(Polynomial, OneSignMeansNoZero) {
+  std::mt19937_64 random(6);
+  std::normal_distribution<double> normal;
+  int one_sign = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::array<double, 5> c;
+    for (double& k : c) k = normal(random);
+    c[0] *= 4;
+    const std::span<const double> polynomial(c.data(), i % 2 ? 4 : 5);
+    if (!one_sign_on_unit(polynomial)) continue;
+    ++one_sign;
+    EXPECT_EQ(roots_between(polynomial, 0, 1).count, 0);
+  }
+  EXPECT_GT(one_sign, 500);
+  const double above[] = {1, -1.5, 0.6, 0};
+  EXPECT_TRUE(one_sign_on_unit(above));
+}
+
 TEST(Polynomial, SolvesMonotoneCubics) {
   const Cubic steep{0, 1e-9, 0, 1};  // nearly flat at 0
   for (const double value : {1e-12, 1e-6, 0.3, 0.999}) {
