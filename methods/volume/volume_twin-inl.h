@@ -131,7 +131,7 @@ HWY_INLINE Rgba transfer(const VolumeBindings& b, Floats s) {
   const FloatTag d;
   const Floats last = splat(b.vm.value[2]);
   const Floats x = hn::Mul(clamp01(s), last);
-  const Ints i = hn::Min(hn::ConvertTo(di, x), hn::Set(di, b.transfer.width - 2));
+  const Ints i = hn::Min(truncate(x), hn::Set(di, b.transfer.width - 2));
   const auto* entries = reinterpret_cast<const float*>(b.transfer.data);
   return lerp_entries(entries, i, hn::Sub(x, hn::ConvertTo(d, i)));
 }
@@ -142,7 +142,7 @@ HWY_INLINE Rgba transfer_segment(const VolumeBindings& b, Floats front, Floats b
   const Floats last = splat(b.vm.value[3]);
   const Ints limit = hn::Set(di, b.preintegrated.width - 2);
   const Floats x = hn::Mul(clamp01(front), last), y = hn::Mul(clamp01(back), last);
-  const Ints ix = hn::Min(hn::ConvertTo(di, x), limit), iy = hn::Min(hn::ConvertTo(di, y), limit);
+  const Ints ix = hn::Min(truncate(x), limit), iy = hn::Min(truncate(y), limit);
   const auto row = static_cast<int32_t>(b.preintegrated.row_stride);
   const Ints i = hn::Add(ix, hn::Mul(iy, hn::Set(di, row)));
   const auto* entries = reinterpret_cast<const float*>(b.preintegrated.data);
@@ -167,7 +167,7 @@ HWY_INLINE Floats opacity_of(Floats x) {
   e = hn::MulAdd(e, r, splat(.5F));
   e = hn::MulAdd(e, r, one);
   e = hn::Mul(e, r);
-  const Floats p = hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), hn::ConvertTo(di, k))));
+  const Floats p = hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), truncate(k))));
   return hn::NegMulAdd(p, e, hn::Sub(one, p));
 }
 
