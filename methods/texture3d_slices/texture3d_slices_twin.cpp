@@ -81,9 +81,15 @@ HWY_NOINLINE void locate(const VolumeUniforms& vm, const FragmentBatch& batch, S
 template <Format format>
 HWY_NOINLINE void fetch_as(const VolumeBindings& b, const Positions& at, size_t count, float* values) {
   const VolumeView view = volume_view(b.volume);
+  const Floats3 scale = splat3(b.vm.texture_scale), offset = splat3(b.vm.texture_offset);
+  VolumeCells cells;
   for_lanes(count, [&](size_t i) HWY_ATTR {
-    const Floats3 p = texture_position(b.vm, at.get(i));
-    store(normalised_value(b.vm, sample_volume<format>(view, p.x, p.y, p.z)), values + i);
+    const Floats3 p = at.get(i) * scale + offset;  // texture_position
+    cells.put(i, volume_cell(view, p.x, p.y, p.z));
+  });
+  const Floats lo = splat(b.vm.value[0]), range = splat(b.vm.value[1]);
+  for_lanes(count, [&](size_t i) HWY_ATTR {
+    store(hn::Mul(hn::Sub(cells.fetch<format>(view, i), lo), range), values + i);  // normalised_value
   });
 }
 
