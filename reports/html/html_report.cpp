@@ -1,0 +1,132 @@
+#include "reports/html/html_report.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "reports/html/assets.h"
+#include "reports/html/format.h"
+#include "reports/html/sections.h"
+
+namespace volumark {
+namespace html {
+namespace {
+
+using Json = nlohmann::json;
+
+// The scripts show statistics; the raw samples stay in results.json, which is many times larger.
+void drop_samples(Json& node) {
+  if (node.is_object() && node.contains("samples") && node.contains("stats")) {
+    node.erase("samples");
+    node.erase("views");
+  }
+  if (node.is_structured())
+    for (Json& child : node) drop_samples(child);
+}
+
+std::string script_json(const Json& json) {
+  return json_for_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+std::string results_json(const Results& results) {
+  Json json = to_json(results);
+  drop_samples(json["results"]);
+  return script_json(json);
+}
+
+std::string model_json(const Model& model, const PictureBook& book) {
+  Json json;
+  json["settings"] = model.settings;
+  for (const Block& block : model.blocks)
+    json["blocks"].push_back({{"id", block.id}, {"title", model.title(block)}, {"cells", block.cells}});
+  json["entries"] = Json::array();
+  for (const PictureEntry& entry : book.entries)
+    json["entries"].push_back({{"cell", entry.cell},
+                               {"view", entry.view},
+                               {"rendered", entry.rendered},
+                               {"reference", entry.reference},
+                               {"difference", entry.difference},
+                               {"flip", entry.flip},
+                               {"note", entry.note}});
+  // Full scale of the signed difference pictures: 50 % grey is equal, black and white are this far apart.
+  json["difference_scale"] = kDifferenceScale;
+  return script_json(json);
+}
+
+std::string picture_scripts(const PictureBook& book) {
+  std::string out;
+  for (size_t i = 0; i < book.base64.size(); ++i)
+    out += fmt::format("<script type=\"text/plain\" id=\"picture-{}\">", i) + book.base64[i] + "</script>\n";
+  return out;
+}
+
+std::string picture_note(const PictureBook& book) {
+  if (book.entries.empty())
+    return "<p class=\"warning\" role=\"note\">No picture is in this report: the run kept none (or their PNG previews "
+           "are not beside the results file).</p>";
+  std::string out;
+  if (book.missing > 0)
+    out += fmt::format(
+        "<p class=\"warning\" role=\"note\">{} pictures could not be embedded; the view says which and "
+        "why.</p>",
+        book.missing);
+  if (book.left_out > 0)
+    out += fmt::format(
+        "<p class=\"note\">{} pictures of coarser settings were left out to keep this file below {} MB; "
+        "they are in the results' folder.</p>",
+        book.left_out, kPictureBudget >> 20);
+  return out;
+}
+
+std::string page_title(const Results& results) {
+  std::string out;
+  for (const ExperimentResultInfo& experiment : results.experiments)
+    out += (out.empty() ? "" : ", ") + (experiment.title.empty() ? experiment.name : experiment.title);
+  return out.empty() ? "Results" : out;
+}
+
+// Replaces each {{name}} of the template once; what is put in is not searched again.
+std::string fill(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
+  std::string out;
+  size_t at = 0;
+  for (size_t open; (open = text.find("{{", at)) != std::string_view::npos;) {
+    const size_t close = text.find("}}", open);
+    const auto value = values.find(text.substr(open + 2, close - open - 2));
+    if (close == std::string_view::npos || value == values.end())
+      throw std::logic_error("template of the report: unknown place near '" + std::string(text.substr(open, 40)) + "'");
+    out += text.substr(at, open - at);
+    out += value->second;
+    at = close + 2;
+  }
+  return out += text.substr(at);
+}
+
+}  // namespace
+}  // namespace html
+
+void write_html_report(const Results& results, const std::filesystem::path& results_dir,
+                       const std::filesystem::path& out) {
+  using namespace html;
+  const Model model(results);
+  const PictureBook book = read_pictures(model, results_dir);
+  const std::string page = fill(page_template(), {{"title", escape(page_title(results))},
+                                                  {"style", style_text()},
+                                                  {"script", script_text()},
+                                                  {"run", run_line(model)},
+                                                  {"tiles", summary_tiles(model)},
+                                                  {"time_to_error", time_to_error_tables(model)},
+                                                  {"scenes", scene_sections(model, book)},
+                                                  {"picture_note", picture_note(book)},
+                                                  {"problems", problems_section(model)},
+                                                  {"cells", cells_table(model)},
+                                                  {"parity", parity_table(model)},
+                                                  {"claims", claims_table(model)},
+                                                  {"self_test", self_test_table(model)},
+                                                  {"environment", environment_section(model)},
+                                                  {"results_json", results_json(results)},
+                                                  {"model_json", model_json(model, book)},
+                                                  {"pictures", picture_scripts(book)}});
+  write_file_atomically(out, page);
+}
+
+}  // namespace volumark

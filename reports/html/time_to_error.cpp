@@ -1,0 +1,138 @@
+// The answer to "what does accuracy cost": a table for each scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reports/html/format.h"
+#include "reports/html/sections.h"
+
+namespace volumark::html {
+namespace {
+
+struct Column {
+  std::string metric;
+  double target;
+};
+
+std::vector<Column> columns() {
+  std::vector<Column> out;
+  for (const double target : kErrorTargets) out.push_back({"rmse", target});
+  for (const double target : kFlipTargets) out.push_back({"flip_p99", target});
+  return out;
+}
+
+struct Entry {
+  TimeToError answer;
+  std::string between;  // the two cells that the time was interpolated between
+};
+
+Entry entry_of(const Model& model, const Row& row, const Column& column) {
+  const std::vector<CostPoint> points = model.points(row, column.metric);
+  Entry out{time_to_error(points, column.target), ""};
+  if (!out.answer.interpolated) return out;
+  const std::vector<size_t> front = pareto_front(points);
+  for (size_t i = 1; i < front.size(); ++i)
+    if (points[front[i]].error <= column.target) {
+      out.between =
+          "between " + model.settings[points[front[i - 1]].result] + " and " + model.settings[points[front[i]].result];
+      break;
+    }
+  return out;
+}
+
+std::string cell_text(const Entry& entry, bool least) {
+  const TimeToError& answer = entry.answer;
+  if (!answer.seconds) {
+    if (!std::isfinite(answer.best_error))
+      return "<td class=\"num none\"><span title=\"nothing measured\">n/a</span></td>";
+    return fmt::format(
+        "<td class=\"num missed\" title=\"not reached: best {} in {} ms\"><span class=\"sr\">not reached, </span>best "
+        "{}</td>",
+        scientific(answer.best_error), milliseconds(answer.best_seconds), scientific(answer.best_error));
+  }
+  const char* mark = answer.interpolated ? "" : "<span class=\"mark\">&le;&thinsp;</span>";
+  const std::string why =
+      answer.interpolated ? "interpolated " + entry.between : "the fastest setting measured already reaches this";
+  return fmt::format("<td class=\"num{}\" title=\"{}\" data-seconds=\"{:.17g}\">{}{}</td>", least ? " least" : "",
+                     escape(why), *answer.seconds, mark, milliseconds(*answer.seconds));
+}
+
+std::string outcomes_of(const Model& model, const Row& row) {
+  std::string out;
+  for (const size_t cell : row.cells) {
+    const std::string name = to_string(model.results.results[cell].outcome);
+    if (out.find(name) == std::string::npos) out += (out.empty() ? "" : ", ") + name;
+  }
+  return out;
+}
+
+std::string head() {
+  std::string out =
+      "<thead><tr><th rowspan=\"2\" scope=\"col\">method</th><th rowspan=\"2\" scope=\"col\">backend</th>"
+      "<th colspan=\"4\" scope=\"colgroup\" class=\"group\">RMSE</th><th colspan=\"3\" scope=\"colgroup\" "
+      "class=\"group\">FLIP p99</th></tr><tr>";
+  for (const Column& column : columns())
+    out += fmt::format("<th scope=\"col\" class=\"num\">{}</th>",
+                       column.metric == "rmse" ? compact(column.target) : fmt::format("{:.2g}", column.target));
+  return out + "</tr></thead>";
+}
+
+}  // namespace
+
+std::string time_to_error_table(const Model& model, const Block& block) {
+  const std::vector<Column> wanted = columns();
+  std::vector<std::vector<Entry>> entries;
+  for (const Row& row : block.rows) {
+    entries.emplace_back();
+    for (const Column& column : wanted) entries.back().push_back(entry_of(model, row, column));
+  }
+  // The least time of a column, among software and among hardware: the two are not ranked against each other.
+  auto is_least = [&](size_t row, size_t column) {
+    const auto& mine = entries[row][column].answer.seconds;
+    const bool software = model.is_software(block.rows[row].backend);
+    if (!mine) return false;
+    for (size_t other = 0; other < block.rows.size(); ++other) {
+      const auto& theirs = entries[other][column].answer.seconds;
+      if (theirs && *theirs < *mine && model.is_software(block.rows[other].backend) == software) return false;
+    }
+    return true;
+  };
+  std::string out = fmt::format(
+      "<table class=\"tte\" data-experiment=\"{}\" data-scene=\"{}\"><caption><a href=\"#{}\">{}</a></caption>",
+      escape(block.experiment), escape(block.scene), block.id, escape(model.title(block)));
+  out += head() + "<tbody>";
+  for (size_t r = 0; r < block.rows.size(); ++r) {
+    const Row& row = block.rows[r];
+    out += fmt::format("<tr data-method=\"{}\" data-backend=\"{}\"{}>", escape(row.method), escape(row.backend),
+                       r > 0 && block.rows[r - 1].method != row.method ? " class=\"first\"" : "");
+    if (r == 0 || block.rows[r - 1].method != row.method) {
+      const auto count = std::count_if(block.rows.begin(), block.rows.end(),
+                                       [&](const Row& other) { return other.method == row.method; });
+      out += fmt::format("<th scope=\"rowgroup\" rowspan=\"{}\">{}</th>", count, escape(row.method));
+    }
+    out += fmt::format("<th scope=\"row\">{}{}</th>", escape(row.backend), software_tag(model, row.backend));
+    const bool nothing = std::all_of(entries[r].begin(), entries[r].end(), [](const Entry& entry) {
+      return !entry.answer.seconds && !std::isfinite(entry.answer.best_error);
+    });
+    if (nothing)
+      out += fmt::format("<td colspan=\"{}\" class=\"none\">no time with an error: {}</td>", wanted.size(),
+                         escape(outcomes_of(model, row)));
+    else
+      for (size_t c = 0; c < wanted.size(); ++c) out += cell_text(entries[r][c], is_least(r, c));
+    out += "</tr>";
+  }
+  return out + "</tbody></table>";
+}
+
+std::string time_to_error_tables(const Model& model) {
+  if (model.blocks.empty()) return "<p class=\"note\">The results file holds no cells.</p>";
+  std::string out = "<div class=\"cards\">";
+  for (const Block& block : model.blocks)
+    out += "<div class=\"card scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Time to error, " +
+           escape(model.title(block)) + "\">" + time_to_error_table(model, block) + "</div>";
+  return out + "</div>";
+}
+
+}  // namespace volumark::html
