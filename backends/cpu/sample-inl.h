@@ -86,6 +86,14 @@ HWY_INLINE Ints truncate(Floats v) {
 #endif
 }
 
+// Makes lanes that were just stored be read back one by one: extracting them from the vector, which the compiler would
+// prefer, takes twice the instructions.
+HWY_INLINE void keep_in_memory([[maybe_unused]] int32_t (&lanes)[kMaxLanes]) {
+#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
+  asm("" : "+m"(lanes));
+#endif
+}
+
 // body(i) for i = 0, lanes, 2 lanes, ... below count.
 template <class Body>
 HWY_INLINE void for_lanes(size_t count, const Body& body) {
@@ -281,13 +289,16 @@ HWY_INLINE Rgba load_entries(const float* entries, Ints index) {
 // entries[index] + t (entries[index + 1] - entries[index]): one 256-bit load a lane brings both entries, the
 // interpolation is done on whole entries (four of them to a vector, one a 128-bit block) and the transpose comes last.
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+HWY_INLINE __m256 entry_pair(const std::byte* entries, int32_t offset) {
+  return _mm256_loadu_ps(reinterpret_cast<const float*>(entries + offset));
+}
 #if HWY_TARGET <= HWY_AVX3
 // Entries of lanes k, 4 + k, 8 + k, 12 + k, interpolated.
 template <int k>
-HWY_INLINE __m512 lerp_four_entries(const float* entries, const int32_t* index, __m512 t) {
+HWY_INLINE __m512 lerp_four_entries(const std::byte* entries, const int32_t* offset, __m512 t) {
   const auto two = [&](int a, int b) HWY_ATTR {
-    return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[a]))),
-                              _mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[b])), 1);
+    return _mm512_insertf32x8(_mm512_castps256_ps512(entry_pair(entries, offset[a])), entry_pair(entries, offset[b]),
+                              1);
   };
   const __m512 low = two(k, 4 + k), high = two(8 + k, 12 + k);
   const __m512 first = _mm512_shuffle_f32x4(low, high, 0x88), second = _mm512_shuffle_f32x4(low, high, 0xDD);
@@ -295,9 +306,8 @@ HWY_INLINE __m512 lerp_four_entries(const float* entries, const int32_t* index, 
 }
 #else
 template <int k>
-HWY_INLINE __m256 lerp_four_entries(const float* entries, const int32_t* index, __m256 t) {
-  const __m256 low = _mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[k]));
-  const __m256 high = _mm256_loadu_ps(entries + 4 * static_cast<ptrdiff_t>(index[4 + k]));
+HWY_INLINE __m256 lerp_four_entries(const std::byte* entries, const int32_t* offset, __m256 t) {
+  const __m256 low = entry_pair(entries, offset[k]), high = entry_pair(entries, offset[4 + k]);
   const __m256 first = _mm256_permute2f128_ps(low, high, 0x20), second = _mm256_permute2f128_ps(low, high, 0x31);
   return _mm256_fmadd_ps(_mm256_shuffle_ps(t, t, k * 0x55), _mm256_sub_ps(second, first), first);
 }
@@ -306,9 +316,11 @@ HWY_INLINE Rgba lerp_entries(const float* entries, Ints index, Floats t) {
   const FloatTag d;
   const hn::Repartition<double, FloatTag> d64;
   alignas(64) int32_t at[kMaxLanes];
-  hn::Store(index, IntTag(), at);
-  const Floats e0{lerp_four_entries<0>(entries, at, t.raw)}, e1{lerp_four_entries<1>(entries, at, t.raw)};
-  const Floats e2{lerp_four_entries<2>(entries, at, t.raw)}, e3{lerp_four_entries<3>(entries, at, t.raw)};
+  hn::Store(hn::ShiftLeft<4>(index), IntTag(), at);
+  keep_in_memory(at);
+  const auto* bytes = reinterpret_cast<const std::byte*>(entries);
+  const Floats e0{lerp_four_entries<0>(bytes, at, t.raw)}, e1{lerp_four_entries<1>(bytes, at, t.raw)};
+  const Floats e2{lerp_four_entries<2>(bytes, at, t.raw)}, e3{lerp_four_entries<3>(bytes, at, t.raw)};
   // Transposes every 4 x 4 block.
   const auto rg01 = hn::BitCast(d64, hn::InterleaveLower(d, e0, e1)),
              rg23 = hn::BitCast(d64, hn::InterleaveLower(d, e2, e3));

@@ -193,10 +193,7 @@ HWY_INLINE Floats sample_volume(const VolumeView& view, Floats u, Floats v, Floa
   const VolumeCell cell = volume_cell(view, u, v, w);
   alignas(64) int32_t index[kMaxLanes];
   hn::Store(cell.index, IntTag(), index);
-#if HWY_COMPILER_GCC || HWY_COMPILER_CLANG
-  // Indices go through memory: lane by lane extraction, which the compiler would prefer, takes twice the instructions.
-  asm("" : "+m"(index));
-#endif
+  keep_in_memory(index);
   return volume_fetch<format>(view, index, cell.fx, cell.fy, cell.fz);
 }
 
