@@ -4,23 +4,13 @@ VM_SPEC(6, VM_CLIP_SLABS, 1)
 layout(location = 0) in vec3 box;  // on the middle plane of the slab
 layout(location = 0) out vec4 colour;
 
-// Whether the ray is inside of the volume over the whole slab.
-bool inside(vec3 direction, float reach) {
-  if (any(greaterThan(abs(box - .5) + abs(direction) * reach, vec3(.5)))) return false;
-  for (int i = 0; i < VM_CLIP_PLANES; ++i) {
-    vec3 normal = vm.clip_planes[i].xyz;
-    if (dot(normal, box) - abs(dot(normal, direction)) * reach < vm.clip_planes[i].w) return false;
-  }
-  return true;
-}
-
 void main() {
   // Box coordinates per unit of depth, affine in window coordinates.
   vec3 direction = vm.own[0].xyz + gl_FragCoord.x * vm.own[1].xyz + gl_FragCoord.y * vm.own[2].xyz;
   float z0 = -.5 * vm.depth.w, z1 = .5 * vm.depth.w;
-  if (VM_CLIP_SLABS == 1 && !inside(direction, z1)) {
+  if (VM_CLIP_SLABS == 1) {
     clip_ray(box, direction, z0, z1);
-    z1 = max(z0, z1);
+    if (z1 <= z0) z0 = z1 = 0.;  // the ray misses this part of the volume: a segment of no length
   }
   float len = (z1 - z0) * ray_length(direction);
   vec3 middle = box + (.5 * (z0 + z1)) * direction;

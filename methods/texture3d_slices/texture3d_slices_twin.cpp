@@ -43,6 +43,7 @@ void vertex(const CpuBindings&, VertexBatch& batch) {
 }
 
 // ---- Phase 1: coordinates ----
+// Whether the rays are inside of the volume over the whole slab: then there is nothing to clip, which is the rule.
 HWY_INLINE FloatMask inside(const VolumeUniforms& vm, const Floats3& box, const Floats3& direction, Floats reach) {
   const Floats half = splat(.5F);
   const auto within = [&](Floats p, Floats d)
@@ -66,7 +67,9 @@ HWY_NOINLINE void locate(const VolumeUniforms& vm, const FragmentBatch& batch, S
     Floats z0 = hn::Neg(reach), z1 = reach;
     if (clip_slabs && !hn::AllTrue(FloatTag(), inside(vm, box, direction, reach))) {
       clip_ray<true>(vm, box, direction, z0, z1);
-      z1 = hn::Max(z0, z1);
+      const auto hits = hn::Lt(z0, z1);
+      z0 = hn::IfThenElseZero(hits, z0);
+      z1 = hn::IfThenElseZero(hits, z1);
     }
     out.middle.put(i, along(box, hn::Mul(splat(.5F), hn::Add(z0, z1)), direction));
     if constexpr (both_ends) {

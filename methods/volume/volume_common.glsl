@@ -53,17 +53,14 @@ float ray_length(vec3 direction) { return length(direction * vm.extent.xyz); }
 
 // Clips [z0, z1] of the ray to the box and the clip planes; empty where z0 >= z1.
 void clip_ray(vec3 origin, vec3 direction, inout float z0, inout float z1) {
-  for (int axis = 0; axis < 3; ++axis) {
-    float o = origin[axis], d = direction[axis];
-    if (d == 0.) {
-      if (o < 0. || o > 1.) z1 = z0;
-    } else {
-      float inverse = 1. / d;
-      float a = -o * inverse, b = (1. - o) * inverse;
-      z0 = max(z0, min(a, b));
-      z1 = min(z1, max(a, b));
-    }
-  }
+  // Between the two faces of an axis: |centre + z direction| <= .5. A direction of 0 is taken as next to nothing, which
+  // makes the slab between the faces everything or nothing.
+  vec3 d = mix(direction, vec3(1e-20), lessThan(abs(direction), vec3(1e-20)));
+  vec3 inverse = 1. / d;
+  vec3 middle = (.5 - origin) * inverse, reach = abs(.5 * inverse);
+  vec3 enter = middle - reach, leave = middle + reach;
+  z0 = max(max(z0, enter.x), max(enter.y, enter.z));
+  z1 = min(min(z1, leave.x), min(leave.y, leave.z));
   for (int i = 0; i < VM_CLIP_PLANES; ++i) {
     float o = dot(vm.clip_planes[i].xyz, origin) - vm.clip_planes[i].w;
     float d = dot(vm.clip_planes[i].xyz, direction);

@@ -82,8 +82,11 @@ template <bool clip_planes>
 HWY_INLINE void clip_ray(const VolumeUniforms& vm, const Floats3& origin, const Floats3& direction, Floats& z0,
                          Floats& z1) {
   const auto clip_axis = [&](Floats o, Floats d) HWY_ATTR {
-    clip_half_space(o, d, z0, z1);
-    clip_half_space(hn::Sub(splat(1.F), o), hn::Neg(d), z0, z1);
+    const Floats tiny = splat(1e-20F), half = splat(.5F);
+    const Floats inverse = hn::Div(splat(1.F), hn::IfThenElse(hn::Lt(hn::Abs(d), tiny), tiny, d));
+    const Floats middle = hn::Mul(hn::Sub(half, o), inverse), reach = hn::Abs(hn::Mul(half, inverse));
+    z0 = hn::Max(z0, hn::Sub(middle, reach));
+    z1 = hn::Min(z1, hn::Add(middle, reach));
   };
   clip_axis(origin.x, direction.x);
   clip_axis(origin.y, direction.y);
