@@ -21,20 +21,37 @@ glm::dvec3 crossing(glm::dvec3 a, glm::dvec3 b, const LocalPlane& plane) {
   return glm::mix(a, b, da / (da - db));
 }
 
-Polygon cut(const Polygon& polygon, const LocalPlane& plane) {
+// What is left of a face; the points of its rim that lie on the plane are added to `rim`.
+Polygon cut(const Polygon& polygon, const LocalPlane& plane, Polygon& rim) {
   Polygon kept;
   for (size_t i = 0; i < polygon.size(); ++i) {
     const glm::dvec3& a = polygon[i];
     const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
     const bool a_in = glm::dot(plane.normal, a) >= plane.distance, b_in = glm::dot(plane.normal, b) >= plane.distance;
     if (a_in) kept.push_back(a);
-    if (a_in != b_in) kept.push_back(crossing(a, b, plane));
+    if (a_in != b_in) {
+      kept.push_back(crossing(a, b, plane));
+      rim.push_back(kept.back());
+    }
   }
   return kept;
 }
 
-std::array<Polygon, 6> faces_of_box(const glm::dvec3& extent) {
-  std::array<Polygon, 6> faces;
+// The face that a cut opens: its corners, each met once a face that shares it, in order around their middle.
+Polygon cap_of(Polygon rim, const glm::dvec3& normal) {
+  std::sort(rim.begin(), rim.end(), before);
+  rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
+  if (rim.size() < 3) return {};
+  glm::dvec3 middle(0);
+  for (const glm::dvec3& p : rim) middle += p / static_cast<double>(rim.size());
+  const glm::dvec3 u = rim.front() - middle, v = glm::cross(normal, u);
+  const auto angle = [&](const glm::dvec3& p) { return std::atan2(glm::dot(p - middle, v), glm::dot(p - middle, u)); };
+  std::sort(rim.begin(), rim.end(), [&](const glm::dvec3& a, const glm::dvec3& b) { return angle(a) < angle(b); });
+  return rim;
+}
+
+std::vector<Polygon> faces_of_box(const glm::dvec3& extent) {
+  std::vector<Polygon> faces(6);
   constexpr int kCorner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   for (int face = 0; face < 6; ++face) {
     const int axis = face / 2;
@@ -107,10 +124,15 @@ Body visible_body(const glm::dvec3& extent, const ViewRays& rays, const std::vec
   const auto depth = [&](const glm::dvec3& p) { return glm::dot(p - rays.origin, rays.forward); };
   std::vector<LocalPlane> cuts = planes;
   cuts.push_back({rays.forward, glm::dot(rays.forward, rays.origin) + rays.z_near});
-  // Every edge of the cut body, those along the cuts too, is an edge of a face that is left of the box.
+  // Each cut opens a face of its own: where two cuts meet inside the box, their common edge is on no face of the box.
+  std::vector<Polygon> faces = faces_of_box(extent);
+  for (const LocalPlane& plane : cuts) {
+    Polygon rim;
+    for (Polygon& face : faces) face = cut(face, plane, rim);
+    faces.push_back(cap_of(std::move(rim), plane.normal));
+  }
   std::vector<std::pair<glm::dvec3, glm::dvec3>> ends;
-  for (Polygon& face : faces_of_box(extent)) {
-    for (const LocalPlane& plane : cuts) face = cut(face, plane);
+  for (const Polygon& face : faces) {
     for (size_t i = 0; i < face.size(); ++i) {
       const glm::dvec3& a = face[i];
       const glm::dvec3& b = face[(i + 1) % face.size()];
@@ -143,7 +165,8 @@ Slabs slabs_of(const Body& body, double step) {
   return slabs;
 }
 
-std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, double z0, double z1) {
+std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, double z0, double z1,
+                                     const glm::dvec2& margin) {
   std::vector<glm::dvec2> points;
   for (const BodyEdge& edge : body.edges) {
     if (edge.zb < z0 || edge.za > z1) continue;
@@ -154,6 +177,15 @@ std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, dou
     points.push_back(edge.za >= z0 ? to_ndc(rays, edge.a, edge.za) : at(z0));
     points.push_back(edge.zb <= z1 ? to_ndc(rays, edge.b, edge.zb) : at(z1));
   }
+  if (margin.x > 0) {
+    const size_t count = points.size();
+    for (size_t i = 0; i < count; ++i) {
+      const glm::dvec2 p = points[i];
+      points[i] = p + margin;
+      points.insert(points.end(),
+                    {p - margin, p + glm::dvec2(margin.x, -margin.y), p + glm::dvec2(-margin.x, margin.y)});
+    }
+  }
   std::vector<glm::dvec2> hull = convex_hull(points);
   for (int axis = 0; axis < 2; ++axis) {
     for (const double sign : {-1., 1.}) hull = cut_to_viewport(hull, axis, sign);
@@ -162,7 +194,7 @@ std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, dou
 }
 
 void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& extent, const Slabs& slabs,
-                  bool whole_slabs, bool front_to_back, SliceMesh& mesh) {
+                  bool whole_slabs, bool front_to_back, SliceMesh& mesh, const glm::dvec2& margin) {
   mesh.vertices.clear();
   mesh.indices.clear();
   mesh.slices = slabs.count;
@@ -170,7 +202,7 @@ void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& exte
   for (int i = 0; i < slabs.count; ++i) {
     const double middle = slabs.middle(front_to_back ? i : slabs.count - 1 - i);
     const double reach = whole_slabs ? 0.5 * slabs.step : 0;
-    const std::vector<glm::dvec2> hull = hull_of_slab(body, rays, middle - reach, middle + reach);
+    const std::vector<glm::dvec2> hull = hull_of_slab(body, rays, middle - reach, middle + reach, margin);
     if (hull.size() < 3) continue;
     const auto base = static_cast<uint32_t>(mesh.vertices.size());
     for (const glm::dvec2& p : hull) {

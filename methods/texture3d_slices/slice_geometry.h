@@ -31,8 +31,10 @@ Slabs slabs_of(const Body& body, double step);
 
 // Where the rays that meet the body between depths z0 and z1 leave the picture plane: their convex hull in NDC,
 // counter-clockwise, cut to the viewport [-1, 1]^2; fewer than three points where nothing shows. With z0 = z1 it is the
-// section of the body.
-std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, double z0, double z1);
+// section of the body. `margin` (NDC) widens the hull: rasterizers move its corners to a grid of sub-pixels, and a
+// pixel lost at an edge that the view grazes is a whole side of the body lost.
+std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, double z0, double z1,
+                                     const glm::dvec2& margin = glm::dvec2(0));
 
 // One vertex of a slice, as the vertex program reads it.
 struct SliceVertex {
@@ -47,8 +49,9 @@ struct SliceMesh {
   int polygons = 0;               // those that show
 };
 // `whole_slabs`: polygons cover every ray that passes the slab; otherwise the section with the middle plane alone.
-// `mesh` is overwritten; its memory is reused.
+// `margin` widens them, for programs that find the ends of each ray themselves. `mesh` is overwritten; its memory is
+// reused.
 void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& extent, const Slabs& slabs,
-                  bool whole_slabs, bool front_to_back, SliceMesh& mesh);
+                  bool whole_slabs, bool front_to_back, SliceMesh& mesh, const glm::dvec2& margin = glm::dvec2(0));
 
 }  // namespace volumark

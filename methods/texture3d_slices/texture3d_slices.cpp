@@ -167,7 +167,10 @@ void PreparedSlices::render(const View& view, Device& device, Texture target) {
   device.begin_zone("classify");
   const ViewRays rays = view_rays(*scene_.volume, view, width, height);
   const Body body = visible_body(extent, rays, local_clip_planes(scene_));
-  build_slices(body, rays, extent, slabs_of(body, step_), clips_, front_to_back_, mesh_);
+  // Fragments that clip their stretch of the ray may lie outside the body: an eighth of a pixel, so that none is
+  // missed.
+  const glm::dvec2 margin = clips_ ? glm::dvec2(0.25 / width, 0.25 / height) : glm::dvec2(0);
+  build_slices(body, rays, extent, slabs_of(body, step_), clips_, front_to_back_, mesh_, margin);
   device.end_zone();
 
   DrawDesc draw;

@@ -146,6 +146,17 @@ TEST(SliceGeometry, ClipPlanesCutTheBody) {
   EXPECT_EQ(slabs_of(none, 0.1).count, 0);
 }
 
+TEST(SliceGeometry, EdgeWhereTwoCutsMeetInside) {
+  const Volume cube = unit_cube();
+  View view = testing::view_at({0, 0, 3}, {0, 0, 0}, false);
+  view.up = {0, 1, 0};
+  const ViewRays rays = view_rays(cube, view, 100, 100);
+  // What is left is the prism y >= |x|: its lower edge, along the view, is on no face of the box.
+  const Body body = visible_body(cube.extent(), rays,
+                                 {{glm::normalize(glm::dvec3(1, 1, 0)), 0}, {glm::normalize(glm::dvec3(-1, 1, 0)), 0}});
+  for (const double z : {-0.4, 0., 0.3}) EXPECT_NEAR(area(hull_of_slab(body, rays, z, z)) * 4, 0.25, 1e-12);
+}
+
 TEST(SliceGeometry, VerticesLieOnTheirPlane) {
   const Volume cube = unit_cube();
   for (const bool perspective : {true, false}) {
