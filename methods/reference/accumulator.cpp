@@ -44,7 +44,7 @@ struct Accumulator::Piece {
 void Accumulator::add(const Chord& chord, double u0, double u1, const TransferSegment& segment) {
   if (segment.empty || !(u1 > u0) || saturated()) return;
   const Piece piece(chord, u0, u1, segment);
-  if (piece.end_depth <= 0) return;
+  if (!(piece.end_depth > 0)) return;
   // The field's rounding, through extinction and colour; and that of the sums below.
   const double value_error = chord.value_error;
   const double error = limits_.max_radiance * (2 * std::abs(piece.slope) * value_error + kRounding) +

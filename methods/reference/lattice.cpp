@@ -136,9 +136,9 @@ void Lattice::mark_empty_bricks(const TransferPieces& transfer) {
     for (int row = range.begin(); row < range.end(); ++row) {
       for (int x = 0; x < bricks_.x; ++x) {
         double lo = 0, hi = 0;
-        (this->*range_)({x, row % bricks_.y, row / bricks_.y}, lo, hi);
-        empty_[static_cast<size_t>(row) * static_cast<size_t>(bricks_.x) + static_cast<size_t>(x)] =
-            transfer.empty_range(lo, hi);
+        const glm::ivec3 brick(x, row % bricks_.y, row / bricks_.y);
+        (this->*range_)(brick, lo, hi);
+        empty_[brick_index(brick)] = transfer.empty_range(lo, hi);
       }
     }
   });

@@ -35,9 +35,7 @@ class Lattice {
 
   // Finds the bricks without extinction; without it, none is known to be empty.
   void mark_empty_bricks(const TransferPieces& transfer);
-  bool brick_empty(const glm::ivec3& brick) const {
-    return !empty_.empty() && empty_[static_cast<size_t>((brick.z * bricks_.y + brick.y) * bricks_.x + brick.x)] != 0;
-  }
+  bool brick_empty(const glm::ivec3& brick) const { return !empty_.empty() && empty_[brick_index(brick)] != 0; }
   glm::ivec3 bricks() const { return bricks_; }
 
  private:
@@ -45,6 +43,10 @@ class Lattice {
   void use_type();
   template <typename T>
   void load_as(const glm::ivec3& cell, Corners& out) const;
+  size_t brick_index(const glm::ivec3& brick) const {
+    const size_t row = static_cast<size_t>(brick.z) * static_cast<size_t>(bricks_.y) + static_cast<size_t>(brick.y);
+    return row * static_cast<size_t>(bricks_.x) + static_cast<size_t>(brick.x);
+  }
   // The samples of the cell and its neighbours, cell - 1 .. cell + 2 along each axis, indices clamped to the lattice.
   using Block = double[4][4][4];
   template <typename T>

@@ -37,7 +37,7 @@ class TransferPieces {
   int segment_above(double s) const;
   int segment_below(double s) const;
   bool empty(int first, int last) const {  // segments first .. last, inclusive
-    return occupied_before_[static_cast<size_t>(last + 1)] == occupied_before_[static_cast<size_t>(first)];
+    return occupied_before_[static_cast<size_t>(last) + 1] == occupied_before_[static_cast<size_t>(first)];
   }
   bool empty_range(double lo, double hi) const;  // no extinction for any value in [lo, hi]
 

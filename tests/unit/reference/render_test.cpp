@@ -58,7 +58,7 @@ TEST(Render, PixelsAreTheRaysIntegrals) {
     for (int y = 0; y < 20; ++y) {
       for (int x = 0; x < 24; ++x) {
         const RayIntegral ray = integrate_ray(scene, view, pixel_ray(view, 24, 20, x, y), 1e-6);
-        const double bound = static_cast<double>(reference.bound[static_cast<size_t>(y * 24 + x)]);
+        const double bound = static_cast<double>(reference.bound[static_cast<size_t>(y) * 24 + static_cast<size_t>(x)]);
         for (int c = 0; c < 4; ++c) {
           EXPECT_EQ(reference.image.pixel(x, y)[c], static_cast<float>(ray.rgba[c]));
           EXPECT_GE(bound,
