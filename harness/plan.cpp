@@ -9,6 +9,7 @@
 #include <set>
 
 #include "harness/paths.h"
+#include "harness/run_folder.h"
 #include "scenes/errors.h"
 #include "scenes/nearest.h"
 
@@ -124,6 +125,16 @@ Group make_group(const Experiment& experiment, const std::string& scene, const E
   return group;
 }
 
+// One key, one series: the same cell twice would be two results with one name.
+void check_unique(const std::vector<Group>& groups) {
+  std::set<std::string> seen;
+  for (const Group& group : groups)
+    for (const Cell& cell : group.cells)
+      if (!seen.insert(key_text(cell.key)).second)
+        throw SceneError(fmt::format("{}: two cells have the same scene, method, backend and parameters: {}",
+                                     group.experiment->path, cell.command));
+}
+
 }  // namespace
 
 std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter) {
@@ -147,6 +158,7 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
         }
       }
     }
+  check_unique(groups);
   return groups;
 }
 

@@ -13,7 +13,9 @@ SceneContext make_context(const Experiment& experiment, const std::string& scene
   try {
     load_data(context.scene, data);
   } catch (const DataMissing& missing) {
-    context.missing = fmt::format("data not installed: {}; to get them: {}", missing.what(), missing.how_to_get);
+    context.missing = fmt::format("data not installed: {}", missing.what());
+    if (context.missing->find(missing.how_to_get) == std::string::npos)
+      *context.missing += "; to get them: " + missing.how_to_get;
   } catch (const std::exception& error) {
     context.broken = error.what();
   }
