@@ -2,8 +2,6 @@
 // [0, 1].
 #pragma once
 
-#include <optional>
-
 #include "harness/metrics/convolve.h"
 
 namespace volumark {

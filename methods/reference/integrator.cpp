@@ -118,8 +118,7 @@ RayResult Integrator::integrate(const Ray& ray, double tolerance) const {
   if (lit()) lights.emplace(*scene_.effects.lighting, lattice_.volume(), ray);
   Accumulator sum(limits, lights ? &*lights : nullptr);
 
-  const double end_rate = std::min(transfer_.max_extinction(), 1e300) * max_radiance_;
-  sum.add_error(std::min(1.0, span->error0 * end_rate) * max_radiance_);
+  sum.add_error(std::min(1.0, span->error0 * transfer_.max_extinction()) * max_radiance_);
   constexpr int unit = Lattice::kBrick;
   walk_grid(grid, unit, glm::ivec3(0), lattice_.bricks() - 1, 0, reach,
             [&](const glm::ivec3& brick, double t0, double t1) {
@@ -131,7 +130,10 @@ RayResult Integrator::integrate(const Ray& ray, double tolerance) const {
                 return !sum.saturated();
               });
             });
-  sum.add_error(sum.transmittance() * std::min(1.0, span->error1 * end_rate) * max_radiance_);
+  // The exit may lie this much further in, where less was absorbed: never more than exp of the depth between.
+  const double end_depth = span->error1 * transfer_.max_extinction();
+  const double reaching = std::min(1.0, sum.transmittance() * std::exp(std::min(end_depth, 700.0)));
+  sum.add_error(reaching * std::min(1.0, end_depth) * max_radiance_);
   result.rgb = sum.rgb();
   result.alpha = sum.alpha();
   result.bound = sum.bound();

@@ -145,7 +145,7 @@ TEST(BoundOfTransformed, HoldsForRotatedAnisotropicReflectedVolumes) {
     scene.effects.clip_planes.push_back({glm::normalize(glm::dvec3(1, 2, 3)), -100});
     scene.effects.clip_planes.push_back({x, glm::dot(x, volume.origin) + 0.4});
     Tally tally;
-    for (int i = 0; i < 150; ++i) {
+    for (int i = 0; i < 400; ++i) {
       Ray ray = random_ray({3, 5, 4}, i % 6, random, i % 5 == 0);
       auto to_world = [&](const glm::dvec3& v) { return volume.axes * (volume.spacing * v); };
       ray.origin = volume.origin + to_world(ray.origin);

@@ -136,24 +136,27 @@ void append_shading_cuts(const Tracer& tracer, const glm::ivec3& cell, Real t0, 
 
 // Where s(t) turns or takes a control value of the transfer function, by sampling and bisection.
 std::vector<Real> cuts_of(const Tracer& tracer, const glm::ivec3& cell, Real t0, Real t1) {
+  // Evenly, and close to both ends, where a bump between two samples would else be missed.
   constexpr int samples = 24;
+  std::vector<Real> at{t0, t1};
+  for (int i = 1; i < samples; ++i) at.push_back(t0 + (t1 - t0) * i / samples);
+  for (const Real near : {1e-7L, 1e-5L, 1e-3L}) {
+    at.push_back(t0 + (t1 - t0) * near);
+    at.push_back(t1 - (t1 - t0) * near);
+  }
+  std::sort(at.begin(), at.end());
   std::vector<Real> turns{t0};
   auto s = [&](Real t) { return tracer.value(cell, t); };
-  Real before = s(t0), now = s(t0 + (t1 - t0) / samples);
-  for (int i = 1; i < samples; ++i) {
-    const Real t = t0 + (t1 - t0) * i / samples, step = (t1 - t0) / samples;
-    const Real after = s(t + step);
-    if ((now - before) * (after - now) <= 0) {  // an extremum in [t - step, t + step]: golden-section search
-      const Real sign = now >= before || now >= after ? 1 : -1;
-      Real a = t - step, b = t + step;
-      for (int k = 0; k < 90; ++k) {
-        const Real x = a + (b - a) * 0.381966L, y = a + (b - a) * 0.618034L;
-        (sign * s(x) < sign * s(y) ? a : b) = sign * s(x) < sign * s(y) ? x : y;
-      }
-      turns.push_back((a + b) / 2);
+  for (size_t i = 1; i + 1 < at.size(); ++i) {
+    const Real before = s(at[i - 1]), now = s(at[i]), after = s(at[i + 1]);
+    if ((now - before) * (after - now) > 0) continue;
+    const Real sign = now >= before || now >= after ? 1 : -1;  // an extremum here: golden-section search
+    Real a = at[i - 1], b = at[i + 1];
+    for (int k = 0; k < 90; ++k) {
+      const Real x = a + (b - a) * 0.381966L, y = a + (b - a) * 0.618034L;
+      (sign * s(x) < sign * s(y) ? a : b) = sign * s(x) < sign * s(y) ? x : y;
     }
-    before = now;
-    now = after;
+    turns.push_back((a + b) / 2);
   }
   turns.push_back(t1);
   std::sort(turns.begin(), turns.end());
