@@ -84,6 +84,8 @@ std::string compact(double value) {
   return short_exponent(fmt::format("{:.6g}", value));
 }
 
+std::string power_of_ten(double value) { return short_exponent(fmt::format("{:.0e}", value)); }
+
 std::string to_text(const ParamValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* whole = std::get_if<int64_t>(&value)) return fmt::format("{}", *whole);

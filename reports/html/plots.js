@@ -41,5 +41,9 @@ vm.startPlots = () => {
       });
     });
   }
-  addEventListener('scroll', hide, { passive: true });
+  addEventListener('scroll', () => {
+    const point = document.activeElement;
+    if (point?.matches('.point') && !tip.hidden) show(point);
+    else hide();
+  }, { passive: true });
 };

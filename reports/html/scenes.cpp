@@ -35,9 +35,14 @@ std::string plots(const Model& model, const Block& block) {
          flip + "<figcaption class=\"sr\">FLIP p99 against time</figcaption></figure></div>" +
          plot_legend(model, block) +
          "<p class=\"hint\">Lower left is better. Bars: 95 % interval of the median time; best to worst view. Faded: "
-         "another setting of the same method and backend is at least as fast and as accurate. Dashed lines across: "
+         "another setting of the same method and backend is at least as fast and as accurate. Dotted lines across: "
          "the targets of the table. Tab to a point, then the arrow keys go from point to point; Enter shows its "
          "picture.</p>";
+}
+
+std::string bound_text(const Model& model, const PictureEntry& entry) {
+  const ViewResult& view = model.results.results[entry.cell].views[entry.view];
+  return view.reference ? scientific(view.reference->bound) : "not stated";
 }
 
 // The picture of the finest cell of each row, beside the reference.
@@ -59,13 +64,13 @@ std::string thumbs(const Model& model, const Block& block, const PictureBook& bo
     if (!reference_shown && best->reference >= 0) {
       out += fmt::format(
           "<li><button type=\"button\" class=\"thumb\" data-entry=\"{}\" data-picture=\"{}\"><span class=\"frame\">"
-          "</span><b>reference</b><span class=\"dim\">double precision</span></button></li>",
-          entry, best->reference);
+          "</span><b>reference</b><span>double precision</span><span class=\"dim\">bound {}</span></button></li>",
+          entry, best->reference, bound_text(model, *best));
       reference_shown = true;
     }
     out += fmt::format(
         "<li><button type=\"button\" class=\"thumb\" data-entry=\"{}\" data-picture=\"{}\"><span class=\"frame\">"
-        "</span><b>{} <span class=\"dim\">{}</span></b><span class=\"dim\">{}</span></button></li>",
+        "</span><b>{}</b><span>{}</span><span class=\"dim\">{}</span></button></li>",
         entry, best->rendered, escape(row.method), escape(row.backend), escape(model.settings[best->cell]));
   }
   if (out.empty()) return "<p class=\"note\">No picture of this scene is in the report.</p>";

@@ -38,8 +38,8 @@ std::string time_figures(const Result& result) {
   const Metrics& metrics = *result.metrics;
   const Stats& wall = metrics.frame_wall.stats;
   std::string out = figure(milliseconds(wall.median), wall.median);
-  out += figure(fmt::format("{} .. {}", milliseconds(wall.median_lo), milliseconds(wall.median_hi)),
-                wall.median_hi - wall.median_lo);
+  const double spread = (wall.median_hi - wall.median_lo) / (2 * wall.median);
+  out += figure(fmt::format("{:.1f} %", 100 * spread), spread);
   out += figure(milliseconds(metrics.frame_cpu.stats.median), metrics.frame_cpu.stats.median);
   out +=
       metrics.frame_wall.first ? figure(milliseconds(*metrics.frame_wall.first), *metrics.frame_wall.first) : kNothing;
@@ -134,7 +134,7 @@ std::string cells_table(const Model& model) {
                {"setting", false},
                {"outcome", false},
                {"frame ms", true},
-               {"95 % interval", true},
+               {"&plusmn;", true},
                {"CPU ms", true},
                {"first ms", true},
                {"prepare ms", true},

@@ -71,11 +71,11 @@ std::string outcomes_of(const Model& model, const Row& row) {
 std::string head() {
   std::string out =
       "<thead><tr><th rowspan=\"2\" scope=\"col\">method</th><th rowspan=\"2\" scope=\"col\">backend</th>"
-      "<th colspan=\"4\" scope=\"colgroup\" class=\"group\">RMSE</th><th colspan=\"3\" scope=\"colgroup\" "
-      "class=\"group\">FLIP p99</th></tr><tr>";
+      "<th colspan=\"4\" scope=\"colgroup\" class=\"span\">RMSE</th><th colspan=\"3\" scope=\"colgroup\" "
+      "class=\"span\">FLIP p99</th></tr><tr>";
   for (const Column& column : columns())
     out += fmt::format("<th scope=\"col\" class=\"num\">{}</th>",
-                       column.metric == "rmse" ? compact(column.target) : fmt::format("{:.2g}", column.target));
+                       column.metric == "rmse" ? power_of_ten(column.target) : compact(column.target));
   return out + "</tr></thead>";
 }
 

@@ -210,6 +210,7 @@ vm.viewer = (() => {
   const start = () => {
     if (entries.length === 0) return;
     root.hidden = false;
+    if (innerWidth < 640) state.mode = 'swipe';  // two pictures side by side would be too small
     select.scene.addEventListener('change', () => show(entriesOf(Number(select.scene.value))[0].index));
     select.cell.addEventListener('change', () => showCell(Number(select.cell.value)));
     select.view.addEventListener('change', () => show(Number(select.view.value)));
