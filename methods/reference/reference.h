@@ -1,6 +1,7 @@
 // The high-precision image of a scene and view: every pixel's ray integrated in double precision, with an error bound
-// for each pixel. Cells are cut at turning points of the field and control points of the transfer function; on each piece
-// the optical depth is a quartic, and one moment of exp(-D), by Gauss-Legendre with a proved error, serves all channels.
+// for each pixel. Cells are cut at turning points of the field and control points of the transfer function; on each
+// piece the optical depth is a quartic, and one moment of exp(-D), by Gauss-Legendre with a proved error, serves all
+// channels.
 #pragma once
 
 #include <cstdint>
