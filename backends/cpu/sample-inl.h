@@ -37,6 +37,8 @@
 //   #endif
 //
 // The lanes past batch.count up to the next multiple of the vector length are readable and writable: no masked tails.
+#include <hwy/cache_control.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>

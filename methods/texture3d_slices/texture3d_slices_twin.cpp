@@ -89,6 +89,7 @@ HWY_NOINLINE void fetch_as(const VolumeBindings& b, const Positions& at, size_t 
   for_lanes(count, [&](size_t i) HWY_ATTR {
     const Floats3 p = at.get(i) * scale + offset;  // texture_position
     cells.put(i, volume_cell(view, p.x, p.y, p.z));
+    cells.prefetch<format>(view, i);
   });
   const Floats lo = splat(b.vm.value[0]), range = splat(b.vm.value[1]);
   for_lanes(count, [&](size_t i) HWY_ATTR {
