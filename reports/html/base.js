@@ -48,7 +48,9 @@ vm.copy = async (text) => {
 vm.commandBox = (command) => {
   const button = vm.make('button', { type: 'button', className: 'copy', textContent: 'copy' });
   button.dataset.copy = command;
-  return vm.make('span', { className: 'command' }, vm.make('code', { textContent: command }), button);
+  // As in the tables: lines end between words, not at the hyphens of an option.
+  const words = command.split(' ').flatMap((word, i) => [i > 0 ? ' ' : '', vm.make('span', { textContent: word })]);
+  return vm.make('span', { className: 'command' }, vm.make('code', {}, ...words), button);
 };
 
 // "raycast on gl, step 0.5"

@@ -18,6 +18,11 @@ std::string joined(const std::vector<T>& words, const char* between) {
   return out;
 }
 
+std::string sentence(const std::string& text) {
+  if (text.empty()) return "";
+  return text + (text.back() == '.' ? " " : ". ");
+}
+
 std::string variables(const std::map<std::string, std::string>& env) {
   std::string out;
   for (const auto& [name, value] : env) out += (out.empty() ? "" : "  ") + name + "=" + value;
@@ -68,8 +73,8 @@ std::string environment_section(const Model& model) {
       std::string limits;
       for (const auto& [metric, limit] : experiment.limits)
         limits += (limits.empty() ? "" : ", ") + metric + " " + compact(limit);
-      out += line(escape(experiment.name), experiment.title + ". " + experiment.description +
-                                               (limits.empty() ? "" : " Limits: " + limits + "."));
+      out += line(escape(experiment.name), sentence(experiment.title) + sentence(experiment.description) +
+                                               (limits.empty() ? "" : "Limits: " + limits + "."));
     }
     out += "</dl>";
   }

@@ -95,7 +95,7 @@ std::string frame(const LogAxis& time, const LogAxis& error, const PlotMetric& m
                      (kLeft + kWidth - kRight) / 2, kHeight - 10);
   const double middle = (kTop + kHeight - kBottom) / 2;
   out += fmt::format(
-      "<text class=\"title\" transform=\"translate(13 {}) rotate(-90)\" text-anchor=\"middle\">{}"
+      "<text class=\"title\" transform=\"translate(16 {}) rotate(-90)\" text-anchor=\"middle\">{}"
       "</text></g>",
       middle, metric.title);
   return out;

@@ -67,8 +67,15 @@ std::string software_tag(const Model& model, const std::string& backend) {
 
 std::string command_box(const std::string& command) {
   if (command.empty()) return "";
-  return "<span class=\"command\"><code>" + escape(command) +
-         "</code><button type=\"button\" class=\"copy\" data-copy=\"" + escape(command) + "\">copy</button></span>";
+  // Each word in an element of its own: lines end between words, not at the hyphens of an option.
+  std::string words;
+  for (size_t at = 0; at < command.size();) {
+    const size_t end = std::min(command.find(' ', at), command.size());
+    words += (words.empty() ? "<span>" : " <span>") + escape(command.substr(at, end - at)) + "</span>";
+    at = end + 1;
+  }
+  return "<span class=\"command\"><code>" + words + "</code><button type=\"button\" class=\"copy\" data-copy=\"" +
+         escape(command) + "\">copy</button></span>";
 }
 
 std::string verdict_badge(const std::string& verdict) {
@@ -211,23 +218,23 @@ std::string claims_table(const Model& model) {
 
 std::string self_test_table(const Model& model) {
   if (model.results.self_test.empty()) return "<p class=\"note\">The metrics were not tested in this run.</p>";
+  const bool sources = std::any_of(model.results.self_test.begin(), model.results.self_test.end(),
+                                   [](const SelfTestRow& row) { return !row.source.empty(); });
   std::string rows;
   for (const SelfTestRow& row : model.results.self_test)
     rows += fmt::format(
         "<tr><th scope=\"row\">{}</th><td class=\"num\">{}</td><td class=\"num\">{}</td><td "
-        "class=\"num\">{}</td><td>{}</td><td>{}</td></tr>",
+        "class=\"num\">{}</td>{}<td>{}</td></tr>",
         escape(row.name), fmt::format("{:.7g}", row.expected), fmt::format("{:.7g}", row.measured),
-        compact(row.tolerance), escape(row.source), verdict_badge(row.ok ? "ok" : "fail"));
+        compact(row.tolerance), sources ? "<td>" + escape(row.source) + "</td>" : "",
+        verdict_badge(row.ok ? "ok" : "fail"));
+  std::vector<std::pair<std::string, bool>> columns = {
+      {"check", false}, {"expected", true}, {"measured", true}, {"tolerance", true}};
+  if (sources) columns.emplace_back("source", false);
+  columns.emplace_back("verdict", false);
   return "<div class=\"scroll tall\" tabindex=\"0\" role=\"group\" aria-label=\"Metrics self-test\"><table "
-         "class=\"wide\">" +
-         head({{"check", false},
-               {"expected", true},
-               {"measured", true},
-               {"tolerance", true},
-               {"source", false},
-               {"verdict", false}},
-              false) +
-         "<tbody>" + rows + "</tbody></table></div>";
+         "class=\"wide snug\">" +
+         head(columns, false) + "<tbody>" + rows + "</tbody></table></div>";
 }
 
 }  // namespace volumark::html

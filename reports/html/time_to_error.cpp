@@ -48,7 +48,8 @@ std::string cell_text(const Entry& entry, bool least) {
     if (!std::isfinite(answer.best_error))
       return "<td class=\"num none\"><span title=\"nothing measured\">n/a</span></td>";
     return fmt::format(
-        "<td class=\"num missed\" title=\"not reached: best {} in {} ms\"><span class=\"sr\">not reached, </span>best "
+        "<td class=\"num missed\" title=\"not reached: best {} in {} ms\"><span class=\"sr\">not reached, "
+        "</span><i>best</i> "
         "{}</td>",
         scientific(answer.best_error), milliseconds(answer.best_seconds), scientific(answer.best_error));
   }

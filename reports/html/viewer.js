@@ -63,7 +63,7 @@ vm.viewer = (() => {
     const a = vm.cellName(current().cell);
     const b = state.against >= 0 ? vm.cellName(entries[state.against].cell) : 'reference';
     const text = { side: [a, b], swipe: [a, b], blink: [state.blinkB ? '' : a, state.blinkB ? b : ''],
-      difference: [`${a} minus ${b}`, `grey: equal; full scale \u00b1${vm.number(vm.model.difference_scale / state.gain)}`],
+      difference: [`${a} minus ${b}`, `grey: equal; full scale \u00b1${Number((vm.model.difference_scale / state.gain).toPrecision(3))}`],
       flip: [`FLIP, ${a}`, 'black: equal; bright: visible'] }[state.mode];
     vm.byId('v-label-a').textContent = text[0];
     vm.byId('v-label-b').textContent = text[1];
