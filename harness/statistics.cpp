@@ -79,41 +79,70 @@ Stats stats_of(std::span<const double> samples, std::span<const int64_t> strata,
   return stats;
 }
 
-OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise) {
-  if (steps.size() != errors.size()) throw std::invalid_argument("one error a step expected");
-  OrderFit fit;
-  // The stretch ends where the error stops falling, or comes within three bounds of what the reference knows.
-  size_t end = 0;
-  while (end < errors.size() && std::isfinite(errors[end]) && errors[end] > 3 * noise && errors[end] > 0) {
-    if (end > 0 && errors[end] > errors[end - 1] * std::sqrt(steps[end] / steps[end - 1])) break;
-    ++end;
+namespace {
+
+// The longest stretch of at least three points whose local slopes agree within half an order; of equals the finest.
+struct Stretch {
+  size_t begin = 0, end = 0;  // points [begin, end)
+};
+Stretch steady_stretch(const std::vector<double>& slopes) {
+  Stretch best;
+  for (size_t begin = 0; begin < slopes.size(); ++begin) {
+    double lo = slopes[begin], hi = slopes[begin];
+    for (size_t end = begin + 1; end < slopes.size(); ++end) {
+      lo = std::min(lo, slopes[end]);
+      hi = std::max(hi, slopes[end]);
+      if (hi - lo > 0.5) break;
+      if (end + 2 - begin >= best.end - best.begin) best = {begin, end + 2};
+    }
   }
-  if (end < errors.size() && end > 0) fit.floor = *std::min_element(errors.begin(), errors.end());
-  if (end < 3) return fit;
-  const auto slope = [&](size_t i) { return std::log(errors[i] / errors[i + 1]) / std::log(steps[i] / steps[i + 1]); };
-  size_t begin = end - 2;  // of the finest pair
-  while (begin > 0 && std::abs(slope(begin - 1) - slope(end - 2)) <= 0.5) --begin;
-  if (end - begin < 3) return fit;
-  const auto n = static_cast<double>(end - begin);
+  return best;
+}
+
+// Least squares of log(error) over log(step).
+void fit_line(std::span<const double> steps, std::span<const double> errors, OrderFit& fit) {
+  const auto n = static_cast<double>(steps.size());
   double mean_x = 0, mean_y = 0, xx = 0, xy = 0, residual = 0;
-  for (size_t i = begin; i < end; ++i) {
+  for (size_t i = 0; i < steps.size(); ++i) {
     mean_x += std::log(steps[i]) / n;
     mean_y += std::log(errors[i]) / n;
   }
-  for (size_t i = begin; i < end; ++i) {
+  for (size_t i = 0; i < steps.size(); ++i) {
     const double x = std::log(steps[i]) - mean_x;
     xx += x * x;
     xy += x * (std::log(errors[i]) - mean_y);
   }
-  fit.points = static_cast<int>(end - begin);
+  fit.points = static_cast<int>(steps.size());
   fit.order = xy / xx;
-  for (size_t i = begin; i < end; ++i) {
+  for (size_t i = 0; i < steps.size(); ++i) {
     const double r = std::log(errors[i]) - mean_y - fit.order * (std::log(steps[i]) - mean_x);
     residual += r * r;
   }
   const double half = student_t(fit.points - 2) * std::sqrt(residual / (n - 2) / xx);
   fit.lo = fit.order - half;
   fit.hi = fit.order + half;
+}
+
+}  // namespace
+
+OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise) {
+  if (steps.size() != errors.size()) throw std::invalid_argument("one error a step expected");
+  OrderFit fit;
+  // Usable: until the error stops falling, or comes within three bounds of what the reference knows.
+  size_t usable = 0;
+  std::vector<double> slopes;
+  while (usable < errors.size() && std::isfinite(errors[usable]) && errors[usable] > 3 * noise && errors[usable] > 0) {
+    if (usable > 0) {
+      const double slope = std::log(errors[usable] / errors[usable - 1]) / std::log(steps[usable] / steps[usable - 1]);
+      if (slope < 0.25) break;
+      slopes.push_back(slope);
+    }
+    ++usable;
+  }
+  const Stretch stretch = steady_stretch(slopes);
+  const size_t count = stretch.end - stretch.begin;
+  if (usable < errors.size() && usable > 0) fit.floor = *std::min_element(errors.begin(), errors.end());
+  if (count >= 3) fit_line(steps.subspan(stretch.begin, count), errors.subspan(stretch.begin, count), fit);
   return fit;
 }
 

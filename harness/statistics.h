@@ -30,10 +30,9 @@ struct OrderFit {
   double order = 0, lo = 0, hi = 0;  // slope of log(error) over log(step), and its 95 % interval
   double floor = 0;  // smallest error, where the error stops falling before the finest step; 0: it never stops
 };
-// error ~ step^order. `steps` falls from coarse to fine. Fitted through the longest stretch in which the error falls by
-// at least the ratio that half an order would give and stays above `noise` (the reference's bound); coarse steps
-// outside of the asymptotic range are left out where the local slope differs from the finest usable one by more than
-// 0.5.
+// error ~ step^order; `steps` falls from coarse to fine. Fitted through the longest stretch of at least three points
+// whose local slopes agree within half an order (of equals the finest), among those before the error stops falling (a
+// local slope below 0.25) or reaches three times `noise` (the reference's bound).
 OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise);
 
 }  // namespace volumark

@@ -154,10 +154,11 @@ int bench(const std::vector<std::string>& flags, const Globals& globals) {
 
 void add_bench(CLI::App& app, const Globals& globals, Action& action) {
   CLI::App* command = app.add_subcommand("bench", "Frame benchmarks under Google Benchmark, with all its flags");
-  command->prefix_command();  // what is not ours goes on to Google Benchmark
+  command->allow_extras()->fallthrough(false);  // everything after `bench` goes on to Google Benchmark
   command->footer(
       "Flags: --benchmark_list_tests, --benchmark_filter=REGEX, --benchmark_repetitions=N,\n"
       "--benchmark_min_time=SECONDS, --benchmark_out=FILE, --benchmark_out_format=json|csv, ...\n"
+      "Common options (--threads, --data, --vk-device ...) go before `bench`.\n"
       "Example: volumark bench --benchmark_filter=texture3d_slices --benchmark_out=slices.json");
   command->callback([&globals, &action, command] {
     const std::vector<std::string> flags = command->remaining();

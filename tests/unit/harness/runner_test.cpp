@@ -1,0 +1,200 @@
+// Whole runs on the null backend, which draws nothing: outcomes, resuming, stopping, broken scenes.
+#include "harness/runner.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/run_folder.h"
+#include "scenes/errors.h"
+#include "tests/unit/harness/test_folder.h"
+
+namespace volumark {
+namespace {
+
+using Json = nlohmann::json;
+
+class RunnerTest : public testing::Test {
+ protected:
+  Json scene() const {
+    return {{"volumark_scene", 1},
+            {"title", "tiny"},
+            {"volume", {{"generator", {{"kind", "constant"}, {"size", 4}, {"type", "f32"}, {"value", 1}}}}},
+            {"transfer", {{"points", {{{"value", 1}, {"colour", {1, 1, 1}}, {"extinction", 2}}}}, {"window", {0, 2}}}},
+            {"views",
+             {{{"orbit",
+                {{"count", 2},
+                 {"azimuth", 0},
+                 {"elevation", 0},
+                 {"distance", 3},
+                 {"half_height", 2},
+                 {"units", "world"},
+                 {"target", {0, 0, 0}}}}}}}};
+  }
+  Json experiment() const {
+    return {{"name", "tiny"},
+            {"scenes", {"./tiny_scene.json"}},
+            {"methods", {{{"method", "texture3d_slices"}, {"sweep", {2, 1, 0.5}}}}},
+            {"backends", {"null"}},
+            {"image_size", {16, 16}},
+            {"images", "none"},
+            {"sampling", {{"least", 2}, {"most", 2}, {"budget", 0}}}};
+  }
+  RunOutcome run(const Json& json) {
+    folder_.write("tiny_scene.json", scene().dump());
+    RunOptions options;
+    options.experiments = {folder_.write("tiny.json", json.dump()).string()};
+    options.out = folder_.path() / "out";
+    options.cache = folder_.path() / "cache";
+    options.resume = resume_;
+    options.overwrite = overwrite_;
+    options.progress = log_;
+    options.cell.stop = &stop_;
+    return run_experiments(options);
+  }
+  ~RunnerTest() override { std::fclose(log_); }
+
+  TestFolder folder_;
+  bool resume_ = false, overwrite_ = false;
+  std::atomic<bool> stop_{false};
+  std::FILE* log_ = std::tmpfile();
+};
+
+TEST_F(RunnerTest, EveryCellHasSamplesErrorsAndAValidFile) {
+  const RunOutcome outcome = run(experiment());
+  ASSERT_EQ(outcome.results.results.size(), 3U);
+  for (const Result& result : outcome.results.results) {
+    EXPECT_EQ(result.outcome, Outcome::Ok) << result.reason;
+    ASSERT_TRUE(result.metrics);
+    EXPECT_EQ(result.metrics->frame_wall.samples.size(), 4U);  // 2 passes of 2 views
+    EXPECT_EQ(result.metrics->frame_wall.views, (std::vector<int64_t>{0, 1, 0, 1}));
+    EXPECT_TRUE(result.metrics->frame_wall.first);
+    EXPECT_EQ(result.views.size(), 2U);
+    ASSERT_TRUE(result.error);
+    EXPECT_GT(result.error->worst.rmse, 0.01);  // nothing was drawn
+    EXPECT_GT(result.metrics->peak_bytes.device, 0);
+  }
+  const Json written = Json::parse(text_of_file(folder_.path() / "out" / "results.json"));
+  for (const SchemaFault& fault : validate_results(written)) ADD_FAILURE() << fault.pointer << ": " << fault.message;
+  EXPECT_FALSE(outcome.results.run.finished_at.empty());
+  EXPECT_EQ(outcome.results.scenes.size(), 1U);
+  EXPECT_EQ(outcome.results.backends.size(), 1U);
+  EXPECT_FALSE(outcome.results.self_test.empty());
+}
+
+TEST_F(RunnerTest, WrongImagesAreBadNews) {
+  Json json = experiment();
+  json["limits"] = {{"rmse", 1e-3}};
+  const RunOutcome outcome = run(json);
+  EXPECT_EQ(outcome.results.results[0].outcome, Outcome::WrongImage);
+  EXPECT_NE(outcome.results.results[0].reason.find("rmse"), std::string::npos);
+  EXPECT_EQ(outcome.bad_news.size(), 3U);
+}
+
+TEST_F(RunnerTest, FinestLimitsGateTheFinestOnly) {
+  Json json = experiment();
+  json["finest_limits"] = {{"rmse", 1e-3}};
+  const RunOutcome outcome = run(json);
+  EXPECT_EQ(outcome.results.results[0].outcome, Outcome::Ok);
+  EXPECT_EQ(outcome.results.results[2].outcome, Outcome::WrongImage);
+}
+
+TEST_F(RunnerTest, ATimeoutKeepsWhatWasMeasured) {
+  Json json = experiment();
+  json["sampling"] = {{"least", 100000}, {"most", 100000}, {"timeout", 0.05}};
+  const RunOutcome outcome = run(json);
+  const Result& result = outcome.results.results[0];
+  EXPECT_EQ(result.outcome, Outcome::Timeout);
+  ASSERT_TRUE(result.metrics);
+  EXPECT_GT(result.metrics->frame_wall.samples.size(), 0U);
+  EXPECT_TRUE(validate_results(to_json(outcome.results)).empty());
+}
+
+TEST_F(RunnerTest, AStopDropsTheCellAndResumeGoesOn) {
+  stop_ = true;
+  RunOutcome outcome = run(experiment());
+  EXPECT_TRUE(outcome.interrupted);
+  EXPECT_TRUE(outcome.results.run.interrupted);
+  EXPECT_TRUE(outcome.results.results.empty());
+  stop_ = false;
+  EXPECT_THROW(run(experiment()), FolderError);  // unfinished: neither --resume nor --overwrite
+  resume_ = true;
+  outcome = run(experiment());
+  EXPECT_FALSE(outcome.interrupted);
+  EXPECT_EQ(outcome.results.results.size(), 3U);
+  EXPECT_EQ(outcome.results.run.resumed, 1);
+  outcome = run(experiment());
+  EXPECT_EQ(outcome.skipped, 3);
+}
+
+TEST_F(RunnerTest, ResumeMeasuresOnlyWhatIsMissingOrWasEdited) {
+  run(experiment());
+  Results results = read_results(folder_.path() / "out");
+  const std::string kept = results.results[0].finished_at = "2001-01-01T00:00:00Z";
+  results.results.erase(results.results.begin() + 1);
+  results.results[1].case_version = "an older scene";
+  write_results(results, folder_.path() / "out" / "results.json");
+  resume_ = true;
+  const RunOutcome outcome = run(experiment());
+  EXPECT_EQ(outcome.skipped, 1);
+  ASSERT_EQ(outcome.results.results.size(), 3U);
+  EXPECT_EQ(outcome.results.results[0].finished_at, kept);
+  EXPECT_NE(outcome.results.results[1].case_version, "an older scene");
+}
+
+TEST_F(RunnerTest, ACellThatKilledTheProcessTwiceIsNotTriedAgain) {
+  run(experiment());
+  Results results = read_results(folder_.path() / "out");
+  const CellKey key = results.results[1].key;
+  results.results.erase(results.results.begin() + 1);
+  results.run.finished_at.clear();
+  {
+    RunFolder held(folder_.path() / "out");
+    held.save(results, true);
+    held.begin_cell(key);
+    held.begin_cell(key);
+  }
+  resume_ = true;
+  const RunOutcome outcome = run(experiment());
+  ASSERT_EQ(outcome.results.results.size(), 3U);
+  EXPECT_EQ(outcome.results.results[2].outcome, Outcome::Failed);
+  EXPECT_NE(outcome.results.results[2].reason.find("died"), std::string::npos);
+}
+
+TEST_F(RunnerTest, ResultsOfAnotherCommitAreNotMixed) {
+  run(experiment());
+  Results results = read_results(folder_.path() / "out");
+  results.git.sha = "another";
+  write_results(results, folder_.path() / "out" / "results.json");
+  resume_ = true;
+  EXPECT_THROW(run(experiment()), FolderError);
+}
+
+TEST_F(RunnerTest, UnsupportedParametersEndAsUnsupported) {
+  Json json = experiment();
+  json["methods"] = {{{"method", "raycast"}}};
+  json["backends"] = {"null"};
+  const RunOutcome outcome = run(json);
+  ASSERT_EQ(outcome.results.results.size(), 1U);
+  EXPECT_TRUE(outcome.results.results[0].outcome == Outcome::Ok || !outcome.results.results[0].reason.empty());
+}
+
+TEST_F(RunnerTest, BrokenExperimentsAreErrorsBeforeAnyWork) {
+  Json json = experiment();
+  json["scenes"] = {"./nowhere.json"};
+  EXPECT_THROW(run(json), SceneError);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out" / "results.json"));
+}
+
+TEST_F(RunnerTest, BackendsThatDisagreeAreBadNews) {
+  Json json = experiment();
+  json["backends"] = {"cpu", "null"};
+  json["parity"] = 0.002;
+  const RunOutcome outcome = run(json);
+  ASSERT_FALSE(outcome.results.parity.empty());
+  EXPECT_FALSE(outcome.results.parity[0].ok);
+  EXPECT_FALSE(outcome.bad_news.empty());
+}
+
+}  // namespace
+}  // namespace volumark
