@@ -34,7 +34,7 @@ vm.startDetails = () => {
   const errorBlock = (worst, mean) => {
     const pairs = ['rmse', 'mae', 'max', 'p50', 'p95', 'p99', 'flip_mean', 'flip_p99', 'ciede2000_mean', 'ciede2000_p99',
       'ssim', 'psnr', 'over_1_255', 'alpha_rmse', 'alpha_max', 'non_finite']
-      .map((name) => [name.replaceAll('_', ' '), `${vm.number(worst[name])} (mean ${vm.number(mean[name])})`]);
+      .map((name) => [name === 'over_1_255' ? 'share over 1/255' : name.replaceAll('_', ' '), `${vm.number(worst[name])} (mean ${vm.number(mean[name])})`]);
     pairs.push(['bias R G B', worst.bias.map(vm.scientific).join('  ')]);
     return block('Error: worst view (mean of the views)', pairs);
   };

@@ -36,8 +36,8 @@ std::string plots(const Model& model, const Block& block) {
          plot_legend(model, block) +
          "<p class=\"hint\">Lower left is better. Bars: 95 % interval of the median time; best to worst view. Faded: "
          "another setting of the same method and backend is at least as fast and as accurate. Dotted lines across: "
-         "the targets of the table. Tab to a point, then the arrow keys go from point to point; Enter shows its "
-         "picture.</p>";
+         "the targets of the table. <span class=\"screen\">Tab to a point, then the arrow keys go from point to point; "
+         "Enter shows its picture.</span></p>";
 }
 
 std::string bound_text(const Model& model, const PictureEntry& entry) {

@@ -151,7 +151,7 @@ std::string cells_table(const Model& model) {
                {"FLIP p99", true},
                {"SSIM", true},
                {"device MiB", true},
-               {"command", false}},
+               {"again", false}},
               true) +
          "<tbody>" + rows + "</tbody></table></div>";
 }

@@ -69,6 +69,29 @@ std::string outcomes_of(const Model& model, const Row& row) {
   return out;
 }
 
+// Image size, views, and what the errors are measured against.
+std::string conditions(const Model& model, const Block& block) {
+  int64_t width = 0, height = 0;
+  size_t views = 0;
+  double bound = -1;
+  bool estimate = false;
+  for (const size_t cell : block.cells) {
+    const Result& result = model.results.results[cell];
+    width = std::max(width, result.width);
+    height = std::max(height, result.height);
+    views = std::max(views, result.views.size());
+    for (const ViewResult& view : result.views)
+      if (view.reference && view.reference->bound > bound) {
+        bound = view.reference->bound;
+        estimate = view.reference->estimate;
+      }
+  }
+  if (views == 0) return "nothing was drawn";
+  std::string out = fmt::format("{} &times; {}, {} view{}", width, height, views, views == 1 ? "" : "s");
+  return out + (bound < 0 ? ", no reference"
+                          : fmt::format(", reference within {}{}", scientific(bound), estimate ? " (estimate)" : ""));
+}
+
 std::string head() {
   std::string out =
       "<thead><tr><th rowspan=\"2\" scope=\"col\">method</th><th rowspan=\"2\" scope=\"col\">backend</th>"
@@ -101,8 +124,9 @@ std::string time_to_error_table(const Model& model, const Block& block) {
     return true;
   };
   std::string out = fmt::format(
-      "<table class=\"tte\" data-experiment=\"{}\" data-scene=\"{}\"><caption><a href=\"#{}\">{}</a></caption>",
-      escape(block.experiment), escape(block.scene), block.id, escape(model.title(block)));
+      "<table class=\"tte\" data-experiment=\"{}\" data-scene=\"{}\"><caption><a href=\"#{}\">{}</a> <span "
+      "class=\"dim\">{}</span></caption>",
+      escape(block.experiment), escape(block.scene), block.id, escape(model.title(block)), conditions(model, block));
   out += head() + "<tbody>";
   for (size_t r = 0; r < block.rows.size(); ++r) {
     const Row& row = block.rows[r];

@@ -53,7 +53,7 @@ vm.viewer = (() => {
     if (view.frame_wall) box.append(item('this view', `${vm.ms(view.frame_wall.median)} ms`));
     if (view.error)
       for (const [name, key] of [['RMSE', 'rmse'], ['max', 'max'], ['FLIP p99', 'flip_p99'], ['SSIM', 'ssim']])
-        box.append(item(name, key === 'ssim' || key === 'flip_p99' ? vm.number(view.error[key]) : vm.scientific(view.error[key])));
+        box.append(item(name, key === 'ssim' ? (view.error.ssim ?? NaN).toFixed(4) : key === 'flip_p99' ? vm.number(view.error[key]) : vm.scientific(view.error[key])));
     if (view.reference) box.append(item('reference bound', vm.scientific(view.reference.bound) + (view.reference.estimate ? ' (estimate)' : '')));
     if (result.outcome !== 'ok') box.append(item('outcome', `${result.outcome}: ${result.reason}`));
     box.append(vm.commandBox(result.command));
