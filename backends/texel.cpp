@@ -1,6 +1,5 @@
 #include "backends/texel.h"
 
-#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -41,32 +40,6 @@ Channel channel_type(Format format) {
 }
 
 }  // namespace
-
-uint16_t half_from_float(float value) {
-  const uint32_t bits = std::bit_cast<uint32_t>(value);
-  const auto sign = static_cast<uint16_t>((bits >> 16) & 0x8000u);
-  const uint32_t magnitude = bits & 0x7fffffffu;
-  if (magnitude > 0x7f800000u) return static_cast<uint16_t>(sign | 0x7e00u);   // NaN
-  if (magnitude >= 0x477ff000u) return static_cast<uint16_t>(sign | 0x7c00u);  // rounds to infinity
-  if (magnitude < 0x38800000u) {  // subnormal: adding 1/2 aligns the bits, in the float rounding mode (nearest even)
-    const float aligned = std::bit_cast<float>(magnitude) + 0.5f;
-    return static_cast<uint16_t>(sign | (std::bit_cast<uint32_t>(aligned) - 0x3f000000u));
-  }
-  const uint32_t odd = (magnitude >> 13) & 1u;
-  return static_cast<uint16_t>(sign | ((magnitude - 0x38000000u + 0xfffu + odd) >> 13));
-}
-
-float float_from_half(uint16_t half) {
-  const uint32_t sign = static_cast<uint32_t>(half & 0x8000u) << 16;
-  const uint32_t exponent = (half >> 10) & 0x1fu;
-  const uint32_t mantissa = half & 0x3ffu;
-  if (exponent == 0) {
-    const float value = std::ldexp(static_cast<float>(mantissa), -24);
-    return sign ? -value : value;
-  }
-  const uint32_t float_exponent = exponent == 31 ? 255u : exponent + 112u;
-  return std::bit_cast<float>(sign | (float_exponent << 23) | (mantissa << 13));
-}
 
 void encode_texel(Format format, const std::array<float, 4>& rgba, std::byte* out) {
   for (int c = 0; c < channel_count(format); ++c) {

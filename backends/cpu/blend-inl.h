@@ -43,7 +43,7 @@ HWY_INLINE Floats round_to_half(Floats v) {
   alignas(64) float lanes[kMaxLanes];
   hn::Store(v, d, lanes);
   for (size_t i = 0; i < hn::Lanes(d); ++i) {
-    lanes[i] = cpu::float_from_half(cpu::half_from_float(lanes[i]));
+    lanes[i] = float_from_half(half_from_float(lanes[i]));
   }
   return hn::Load(d, lanes);
 #endif
