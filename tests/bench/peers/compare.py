@@ -136,6 +136,8 @@ def main():
         report[pathlib.Path(scene).stem] = results = measure(scene, chosen, args, environment)
         print_table(scene, results)
     (args.out / "peers.json").write_text(json.dumps(report, indent=1) + "\n")
+    if any(row["median_ms"] is None for results in report.values() for row in results.values()):
+        sys.exit(1)
 
 
 if __name__ == "__main__":

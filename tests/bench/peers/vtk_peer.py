@@ -110,7 +110,7 @@ def main():
         start = time.process_time()
         camera.Modified()
         window.Render()
-        window.GetPixelData(0, 0, meta["width"] - 1, meta["height"] - 1, 0, pixels)
+        window.GetPixelData(0, 0, meta["width"] - 1, meta["height"] - 1, 0, pixels, 0)
         if frame >= warm_up:
             seconds.append(time.process_time() - start)
 
