@@ -77,8 +77,6 @@ std::string scientific(double value) {
 
 std::string milliseconds(double seconds) { return number(seconds * 1e3); }
 
-std::string mebibytes(int64_t bytes) { return number(static_cast<double>(bytes) / (1024.0 * 1024.0)); }
-
 std::string compact(double value) {
   if (!std::isfinite(value)) return not_finite(value);
   return short_exponent(fmt::format("{:.6g}", value));

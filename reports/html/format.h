@@ -20,7 +20,6 @@ std::string json_for_script(std::string json);
 std::string number(double value);
 std::string scientific(double value);      // "1.23e-3"; errors, so that columns can be compared
 std::string milliseconds(double seconds);  // without the unit
-std::string mebibytes(int64_t bytes);      // without the unit
 std::string compact(double value);         // as short as it is exact to six digits: "0.25", "1e-3"
 std::string power_of_ten(double value);    // one digit: "3e-4"
 std::string to_text(const ParamValue& value);

@@ -63,7 +63,6 @@ std::pair<LogAxis, LogAxis> axes_of(const Model& model, const std::vector<Series
       if (point.error > 0) e0 = std::min(e0, point.error);
       e1 = std::max(e1, span.hi);
     }
-  if (!(e1 > 0)) e0 = e1 = 1e-3;  // every error is zero
   return {LogAxis(t0, t1, kLeft, kWidth - kRight), LogAxis(std::min(e0, e1), e1, kHeight - kBottom, kTop)};
 }
 
@@ -137,6 +136,8 @@ std::string point_text(const Model& model, const Series& series, const CostPoint
                   settings.empty() ? "" : ", " + settings, milliseconds(point.time), milliseconds(point.time_lo),
                   milliseconds(point.time_hi), metric.title, scientific(point.error));
   if (span.lo < span.hi) text += fmt::format(" (views {} to {})", scientific(span.lo), scientific(span.hi));
+  if (point.error > error_value(model.results.results[point.result].error->worst, metric.key))
+    text += "; at the reference's bound";
   if (model.results.results[point.result].outcome == Outcome::WrongImage) text += "; counted as a wrong image";
   return text + (dominated ? "; dominated" : "");
 }
@@ -170,6 +171,10 @@ std::string series_marks(const Model& model, const Series& series, const LogAxis
 std::string cost_plot(const Model& model, const Block& block, const PlotMetric& metric) {
   const std::vector<Series> all = series_of(model, block, metric.key);
   if (all.empty()) return "";
+  const auto positive = [](const CostPoint& point) { return point.error > 0; };
+  if (std::none_of(all.begin(), all.end(),
+                   [&](const Series& s) { return std::any_of(s.points.begin(), s.points.end(), positive); }))
+    return fmt::format("<p class=\"note empty\">{}: 0 for every cell, nothing to plot.</p>", metric.title);
   const auto [time, error] = axes_of(model, all, metric.key);
   std::string out = fmt::format(
       "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"group\" aria-label=\"{} against time, {}\" "

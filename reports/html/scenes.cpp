@@ -36,7 +36,8 @@ std::string plots(const Model& model, const Block& block) {
          plot_legend(model, block) +
          "<p class=\"hint\">Lower left is better. Bars: 95 % interval of the median time; best to worst view. Faded: "
          "another setting of the same method and backend is at least as fast and as accurate. Dotted lines across: "
-         "the targets of the table. <span class=\"screen\">Tab to a point, then the arrow keys go from point to point; "
+         "the targets of the table. On the lower edge: error 0. <span class=\"screen\">Tab to a point, then the arrow "
+         "keys go from point to point; "
          "Enter shows its picture.</span></p>";
 }
 
@@ -45,7 +46,7 @@ std::string bound_text(const Model& model, const PictureEntry& entry) {
   return view.reference ? scientific(view.reference->bound) : "not stated";
 }
 
-// The picture of the finest cell of each row, beside the reference.
+// The picture of the most accurate cell of each row, beside the reference.
 std::string thumbs(const Model& model, const Block& block, const PictureBook& book) {
   std::string out;
   bool reference_shown = false;
@@ -74,7 +75,7 @@ std::string thumbs(const Model& model, const Block& block, const PictureBook& bo
         entry, best->rendered, escape(row.method), escape(row.backend), escape(model.settings[best->cell]));
   }
   if (out.empty()) return "<p class=\"note\">No picture of this scene is in the report.</p>";
-  return "<ul class=\"thumbs\" aria-label=\"Pictures, finest setting of each; opens the comparison\">" + out + "</ul>";
+  return "<ul class=\"thumbs\" aria-label=\"Pictures, the most accurate setting of each; opens the comparison\">" + out + "</ul>";
 }
 
 std::string range(const std::vector<double>& values, std::string (*text)(double)) {

@@ -124,9 +124,6 @@ std::string cells_table(const Model& model) {
     rows += result.quality ? fmt::format("<td data-value=\"{:.17g}\">{}</td>", result.quality->value, settings)
                            : "<td>" + settings + "</td>";
     rows += "<td>" + verdict_badge(to_string(result.outcome)) + "</td>" + time_figures(result) + error_figures(result);
-    rows += result.metrics ? figure(mebibytes(result.metrics->peak_bytes.device),
-                                    static_cast<double>(result.metrics->peak_bytes.device))
-                           : kNothing;
     rows += fmt::format(
         "<td><button type=\"button\" class=\"copy\" data-copy=\"{}\" title=\"{}\">copy</button></td>"
         "</tr>",
@@ -150,7 +147,6 @@ std::string cells_table(const Model& model) {
                {"|bias|", true},
                {"FLIP p99", true},
                {"SSIM", true},
-               {"device MiB", true},
                {"again", false}},
               true) +
          "<tbody>" + rows + "</tbody></table></div>";

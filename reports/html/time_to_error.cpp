@@ -42,22 +42,25 @@ Entry entry_of(const Model& model, const Row& row, const Column& column) {
   return out;
 }
 
-std::string cell_text(const Entry& entry, bool least) {
+std::string reached_text(const Entry& entry, bool least) {
   const TimeToError& answer = entry.answer;
-  if (!answer.seconds) {
-    if (!std::isfinite(answer.best_error))
-      return "<td class=\"num none\"><span title=\"nothing measured\">n/a</span></td>";
-    return fmt::format(
-        "<td class=\"num missed\" title=\"not reached: best {} in {} ms\"><span class=\"sr\">not reached, "
-        "</span><i>best</i> "
-        "{}</td>",
-        scientific(answer.best_error), milliseconds(answer.best_seconds), scientific(answer.best_error));
-  }
   const char* mark = answer.interpolated ? "" : "<span class=\"mark\">&le;&thinsp;</span>";
   const std::string why =
       answer.interpolated ? "interpolated " + entry.between : "the fastest setting measured already reaches this";
-  return fmt::format("<td class=\"num{}\" title=\"{}\" data-seconds=\"{:.17g}\">{}{}</td>", least ? " least" : "",
-                     escape(why), *answer.seconds, mark, milliseconds(*answer.seconds));
+  return fmt::format("<td class=\"num{}\" title=\"{}\">{}{}</td>", least ? " least" : "", escape(why), mark,
+                     milliseconds(*answer.seconds));
+}
+
+// A target that was missed, with the `columns - 1` finer ones after it.
+std::string missed_text(const Entry& entry, int columns) {
+  const TimeToError& answer = entry.answer;
+  if (!std::isfinite(answer.best_error)) return fmt::format("<td class=\"num none\" colspan=\"{}\">n/a</td>", columns);
+  // In a single narrow column "not reached" is for readers that are read to.
+  return fmt::format(
+      "<td class=\"num missed\" colspan=\"{}\" title=\"not reached: best {} in {} ms\"><span{}>not reached, </span>"
+      "<i>best</i> {}</td>",
+      columns, scientific(answer.best_error), milliseconds(answer.best_seconds), columns == 1 ? " class=\"sr\"" : "",
+      scientific(answer.best_error));
 }
 
 std::string outcomes_of(const Model& model, const Row& row) {
@@ -145,7 +148,17 @@ std::string time_to_error_table(const Model& model, const Block& block) {
       out += fmt::format("<td colspan=\"{}\" class=\"none\">no time with an error: {}</td>", wanted.size(),
                          escape(outcomes_of(model, row)));
     else
-      for (size_t c = 0; c < wanted.size(); ++c) out += cell_text(entries[r][c], is_least(r, c));
+      for (size_t c = 0; c < wanted.size();) {
+        if (entries[r][c].answer.seconds) {
+          out += reached_text(entries[r][c], is_least(r, c));
+          ++c;
+          continue;
+        }
+        size_t end = c + 1;
+        while (end < wanted.size() && wanted[end].metric == wanted[c].metric && !entries[r][end].answer.seconds) ++end;
+        out += missed_text(entries[r][c], static_cast<int>(end - c));
+        c = end;
+      }
     out += "</tr>";
   }
   return out + "</tbody></table>";
