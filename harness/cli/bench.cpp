@@ -82,10 +82,35 @@ BenchSetup reference_setup(const std::string& scene_name, int threads, const Glo
   };
 }
 
-// The harness' own share: a frame of the null backend, which draws nothing.
-BenchSetup null_setup(const Globals& globals) {
-  FrameCase what{"", "sphere", "texture3d_slices", "null", {}, 1, 512, 512, 0};
-  return frame_setup(what, globals);
+// A frame in which the method records nothing and the backend draws nothing: what is left is the harness' own.
+class EmptyMethod : public Method {
+ public:
+  const MethodInfo& info() const override {
+    static const MethodInfo info{"empty", "records nothing", "", {}, {}, nullptr};
+    return info;
+  }
+  std::optional<std::string> unsupported(const Scene&, const Values&, const BackendInfo&) const override { return {}; }
+  std::unique_ptr<PreparedMethod> prepare(const Scene&, const Values&, Device&) const override {
+    class Prepared : public PreparedMethod {
+      void render(const View&, Device&, Texture) override {}
+      Counters counters() const override { return {}; }
+    };
+    return std::make_unique<Prepared>();
+  }
+  Format target_format(const Values&) const override { return Format::RGBA32F; }
+};
+
+BenchSetup empty_setup(const Globals& globals) {
+  return [&globals]() -> std::function<BenchFrame()> {
+    static const EmptyMethod method;
+    auto held = std::make_shared<Configuration>();
+    held->device = std::make_unique<Device>(make_device("null", globals.device));
+    held->source = std::make_unique<FrameSource>(held->scene, method, held->values, *held->device, 512, 512);
+    return [held] {
+      const Instant cost = held->source->frame(View{}).cost;
+      return BenchFrame{cost.wall, cost.cpu};
+    };
+  };
 }
 
 void register_case(const std::string& name, BenchSetup setup, int threads) {
@@ -129,7 +154,9 @@ void register_all(const Globals& globals) {
       register_case(fmt::format("reference/{}/512x512{}", scene, suffix), reference_setup(scene, threads, globals),
                     threads);
   }
-  register_case("harness_overhead/null_backend/512x512", null_setup(globals), 1);
+  FrameCase host{"", "sphere", "texture3d_slices", "null", {}, 1, 512, 512, 0};
+  register_case("host_side/texture3d_slices/sphere/null", frame_setup(host, globals), 1);
+  register_case("harness_overhead/empty_frame/null", empty_setup(globals), 1);
 }
 
 int bench(const std::vector<std::string>& flags, const Globals& globals) {

@@ -1,6 +1,8 @@
 #include "harness/cli/bench_worker.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -34,10 +36,12 @@ bool write_all(int fd, const void* data, size_t size) {
   return ::write(fd, data, size) == static_cast<ssize_t>(size);  // small enough for a pipe to take at once
 }
 
-// Serves until the parent closes its end.
+// What a request byte asks for. The end of the pipe is no signal: processes forked later hold it open too.
+constexpr char kFrame = 1, kQuit = 0;
+
 void serve(const BenchSetup& setup, int requests, int replies) {
   std::function<BenchFrame()> frame;
-  for (char request = 0; read_all(requests, &request, 1);) {
+  for (char request = kQuit; read_all(requests, &request, 1) && request != kQuit;) {
     Reply reply{};
     try {
       if (!frame) frame = setup();
@@ -53,6 +57,7 @@ void serve(const BenchSetup& setup, int requests, int replies) {
 
 BenchWorker::~BenchWorker() {
   if (pid_ < 0) return;
+  write_all(to_child_, &kQuit, 1);
   ::close(to_child_);
   ::close(from_child_);
   ::waitpid(pid_, nullptr, 0);
@@ -66,6 +71,7 @@ void BenchWorker::start(const BenchSetup& setup, int threads) {
   pid_ = ::fork();
   if (pid_ < 0) throw std::runtime_error("no process for a benchmark");
   if (pid_ == 0) {
+    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     ::close(requests[1]);
     ::close(replies[0]);
     // 0 is the caller's thread alone, for llvmpipe and lavapipe.
@@ -81,9 +87,8 @@ void BenchWorker::start(const BenchSetup& setup, int threads) {
 
 BenchFrame BenchWorker::frame(const BenchSetup& setup, int threads) {
   if (pid_ < 0) start(setup, threads);
-  const char request = 1;
   Reply reply{};
-  if (!write_all(to_child_, &request, 1) || !read_all(from_child_, &reply, sizeof reply))
+  if (!write_all(to_child_, &kFrame, 1) || !read_all(from_child_, &reply, sizeof reply))
     throw std::runtime_error("the benchmark's process died");
   if (reply.error[0] != '\0') throw std::runtime_error(reply.error);
   return reply.frame;
