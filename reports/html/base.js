@@ -5,6 +5,14 @@ const vm = {
   model: JSON.parse(document.getElementById('model').textContent),
 };
 
+// The file writes numbers that are not finite as null, with what they were in `nulls`.
+for (const result of vm.results.results)
+  for (const [pointer, reason] of Object.entries(result.nulls ?? {})) {
+    const path = pointer.split('/').slice(1);
+    const holder = path.slice(0, -1).reduce((node, key) => node?.[key], result);
+    if (holder) holder[path.at(-1)] = { infinity: Infinity, '-infinity': -Infinity }[reason] ?? NaN;
+  }
+
 vm.byId = (id) => document.getElementById(id);
 
 // An element with properties and children; text is never read as HTML.
@@ -17,12 +25,13 @@ vm.make = (tag, properties = {}, ...children) => {
 vm.scientific = (value) => {
   if (value === null || value === undefined || Number.isNaN(value)) return 'n/a';
   if (value === 0) return '0';
+  if (!Number.isFinite(value)) return value > 0 ? 'infinite' : '-infinite';
   return value.toExponential(2);
 };
 
 vm.number = (value) => {
   if (value === null || value === undefined || Number.isNaN(value)) return 'n/a';
-  if (value === 0) return '0';
+  if (value === 0 || !Number.isFinite(value)) return vm.scientific(value);
   const exponent = Number(value.toExponential(2).split('e')[1]);
   if (exponent < -3 || exponent > 5) return vm.scientific(value);
   return Number(value.toPrecision(3)).toFixed(Math.max(0, 2 - exponent));

@@ -25,7 +25,7 @@ std::string sentence(const std::string& text) {
 
 std::string variables(const std::map<std::string, std::string>& env) {
   std::string out;
-  for (const auto& [name, value] : env) out += (out.empty() ? "" : "  ") + name + "=" + value;
+  for (const auto& [name, value] : env) out += fmt::format("{}{}={}", out.empty() ? "" : "  ", name, value);
   return out;
 }
 

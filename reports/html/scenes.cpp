@@ -75,7 +75,8 @@ std::string thumbs(const Model& model, const Block& block, const PictureBook& bo
         entry, best->rendered, escape(row.method), escape(row.backend), escape(model.settings[best->cell]));
   }
   if (out.empty()) return "<p class=\"note\">No picture of this scene is in the report.</p>";
-  return "<ul class=\"thumbs\" aria-label=\"Pictures, the most accurate setting of each; opens the comparison\">" + out + "</ul>";
+  return "<ul class=\"thumbs\" aria-label=\"Pictures, the most accurate setting of each; opens the comparison\">" +
+         out + "</ul>";
 }
 
 std::string range(const std::vector<double>& values, std::string (*text)(double)) {

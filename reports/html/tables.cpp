@@ -56,7 +56,7 @@ std::string error_figures(const Result& result) {
   const double bias = error_value(worst, "bias");
   return figure(scientific(worst.rmse), worst.rmse) + figure(scientific(worst.max), worst.max) +
          figure(scientific(bias), bias) + figure(number(worst.flip_p99), worst.flip_p99) +
-         figure(fmt::format("{:.4f}", worst.ssim), worst.ssim);
+         figure(std::isfinite(worst.ssim) ? fmt::format("{:.4f}", worst.ssim) : number(worst.ssim), worst.ssim);
 }
 
 }  // namespace

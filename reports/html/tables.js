@@ -3,9 +3,10 @@ vm.startSorting = () => {
   const value = (row, column) => {
     const cell = row.cells[column];
     const exact = cell?.dataset.value;
+    if (exact === 'inf') return Infinity;
     if (exact !== undefined && exact !== '' && !Number.isNaN(Number(exact))) return Number(exact);
     const text = cell?.textContent.trim() ?? '';
-    return text === '-' || text === 'nan' ? null : text;
+    return text === '-' || text === 'n/a' ? null : text;
   };
   const compare = (a, b) => {
     if (a === null || b === null) return (a === null) - (b === null);  // what is missing comes last either way

@@ -218,6 +218,16 @@ const withoutPictures = async ({ browser, open, quiet }) => {
   await open('report.html');
 };
 
+// results.json writes null for them, and what they were beside it.
+const notFinite = async ({ browser, results }) => {
+  const cell = results.results.findIndex(({ nulls }) => nulls?.['/error/worst/psnr'] === 'infinity');
+  const [ssim, details] = await browser.run(`const row = document.querySelector('#cell-table tr[data-cell="' + arguments[0] + '"]');
+    row.querySelector('.more').click(); const text = row.nextElementSibling.textContent; row.querySelector('.more').click();
+    return [row.cells[15].textContent, text]`, cell);
+  assert.equal(ssim, 'n/a');
+  assert.match(details, /psnrinfinite/);
+};
+
 export const pageChecks = [
   ['opens from file:// without a console message or a request', openReport],
   ['names from the file are text, never markup', namesAreText],
@@ -230,6 +240,7 @@ export const pageChecks = [
   ['plots: focus, arrow keys and tooltip', plotKeys],
   ['cells sort both ways', sorting],
   ['cells filter, details open and close', filterAndDetails],
+  ['numbers that are not finite are named', notFinite],
   ['dark and light: system, key, button', themes],
   ['help opens with ?', help],
   ['a command is copied', copying],
