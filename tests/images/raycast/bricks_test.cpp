@@ -101,7 +101,9 @@ TEST(OpaqueValues, NoOpaqueValueIsMissed) {
         const double below = -125 + std::floor(node) * 130 / (nodes - 1),
                      above = -125 + std::ceil(node) * 130 / (nodes - 1);
         const bool visible = transfer.at(below).a > 0 || transfer.at(above).a > 0;
-        if (visible) EXPECT_TRUE(opaque.any(value, value)) << value << " nodes " << nodes;
+        if (visible) {
+          EXPECT_TRUE(opaque.any(value, value)) << value << " nodes " << nodes;
+        }
         if (transfer.at(value).a > 0 && classification == Classification::Preintegrated) {
           EXPECT_TRUE(opaque.any(value, value)) << value << " nodes " << nodes;
         }
