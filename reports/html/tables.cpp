@@ -153,7 +153,8 @@ std::string cells_table(const Model& model) {
 }
 
 std::string parity_table(const Model& model) {
-  const std::vector<ParityRow>& parity = model.results.parity;
+  std::vector<ParityRow> parity = model.results.parity;
+  std::stable_partition(parity.begin(), parity.end(), [](const ParityRow& row) { return !row.ok; });
   if (parity.empty()) return "<p class=\"note\">This run did not compare backends with each other.</p>";
   std::string rows;
   for (const ParityRow& row : parity) {

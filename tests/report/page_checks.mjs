@@ -88,6 +88,16 @@ const convergence = async ({ browser, results }) => {
   });
 };
 
+const parity = async ({ browser, results }) => {
+  const rows = await browser.run('return [...document.querySelectorAll("#parity + .scroll tbody tr")].map((r) => [...r.cells].map((c) => c.textContent.trim()))');
+  assert.equal(rows.length, results.parity.length);
+  const bad = results.parity.filter(({ ok }) => !ok);
+  assert.ok(bad.length > 0);
+  assert.deepEqual(rows.slice(0, bad.length).map((row) => [row[5], row.at(-1)]), bad.map((row) => [scientific(row.interior_max), 'differs']),
+    'what differs comes first');
+  assert.ok(rows.slice(bad.length).every((row) => row.at(-1) === 'ok'));
+};
+
 // Every point lies where the logarithms of its time and error put it.
 const plotPositions = async ({ browser, results }) => {
   const plots = await browser.run(`return [...document.querySelectorAll('svg.plot')].map((svg) => ({ metric: svg.dataset.metric,
@@ -236,6 +246,7 @@ export const pageChecks = [
   ['outcomes: counts, reasons, commands', outcomeCounts],
   ['cells: times and errors', cellTable],
   ['convergence: order and verdict', convergence],
+  ['parity: what differs comes first', parity],
   ['plots: every point in its place', plotPositions],
   ['plots: focus, arrow keys and tooltip', plotKeys],
   ['cells sort both ways', sorting],
