@@ -1,10 +1,8 @@
 // volumark report: tables and the HTML file, from results.json alone.
 #include <fmt/format.h>
 
-#include <map>
-
 #include "harness/cli/commands.h"
-#include "harness/cli/show.h"
+#include "reports/tables.h"
 #ifdef VM_HAS_HTML
 #include "reports/html/html_report.h"
 #endif
@@ -21,7 +19,7 @@ int report(const ReportOptions& options) {
   const bool folder = std::filesystem::is_directory(options.path);
   const std::filesystem::path base =
       folder ? std::filesystem::path(options.path) : std::filesystem::absolute(options.path).parent_path();
-  show_results(results, base);
+  fmt::print("{}", tables_text(results));
 #ifdef VM_HAS_HTML
   const std::filesystem::path out = options.out.empty() ? base / "report.html" : std::filesystem::path(options.out);
   write_html_report(results, base, out);
@@ -33,16 +31,6 @@ int report(const ReportOptions& options) {
 }
 
 }  // namespace
-
-void show_results(const Results& results, const std::filesystem::path&) {
-#ifdef VM_HAS_TABLES
-  fmt::print("{}", tables_text(results));
-#else
-  std::map<std::string, int> outcomes;
-  for (const Result& result : results.results) ++outcomes[to_string(result.outcome)];
-  for (const auto& [outcome, count] : outcomes) fmt::print("{}: {}\n", outcome, count);
-#endif
-}
 
 void add_report(CLI::App& app, const Globals&, Action& action) {
   auto options = std::make_shared<ReportOptions>();

@@ -4,9 +4,9 @@
 #include <csignal>
 
 #include "harness/cli/commands.h"
-#include "harness/cli/show.h"
 #include "harness/paths.h"
 #include "harness/runner.h"
+#include "reports/tables.h"
 
 namespace volumark::cli {
 namespace {
@@ -41,7 +41,7 @@ int run(const RunArguments& arguments, const Globals& globals) {
   std::signal(SIGTERM, on_signal);
   const RunOutcome outcome = run_experiments(options);
   if (outcome.skipped > 0) fmt::print("{} cells were measured before\n", outcome.skipped);
-  show_results(outcome.results, options.out);
+  fmt::print("\n{}\n", tables_text(outcome.results));
   for (const std::string& line : outcome.bad_news) fmt::print("{}\n", line);
   fmt::print("{}\n", (options.out / "results.json").string());
   if (outcome.interrupted) {

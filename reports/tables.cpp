@@ -1,0 +1,173 @@
+#include "reports/tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "reports/analysis.h"
+
+namespace volumark {
+namespace {
+
+using Row = std::vector<std::string>;
+
+size_t display_width(const std::string& text) {
+  size_t width = 0;
+  for (const char c : text) width += (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
+  return width;
+}
+
+// Columns as wide as their widest cell; the first `left` of them are set to the left, the others to the right.
+std::string table(const std::vector<Row>& rows, size_t left) {
+  std::vector<size_t> widths(rows.front().size());
+  for (const Row& row : rows)
+    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], display_width(row[i]));
+  std::string out;
+  for (size_t r = 0; r < rows.size(); ++r) {
+    std::string line;
+    for (size_t i = 0; i < rows[r].size(); ++i) {
+      const std::string pad(widths[i] - display_width(rows[r][i]), ' ');
+      line += (i > 0 ? "  " : "") + (i < left ? rows[r][i] + pad : pad + rows[r][i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + "\n";
+    if (r == 0) {
+      size_t total = 2 * (widths.size() - 1);
+      for (const size_t width : widths) total += width;
+      out += std::string(total, '-') + "\n";
+    }
+  }
+  return out;
+}
+
+// Parameters other than the quality axis in which the cells of one scene, method and backend differ.
+std::string variant_of(const Results& results, const Result& result) {
+  std::string out;
+  for (const auto& [name, value] : result.key.params) {
+    if (result.quality && name == result.quality->parameter) continue;
+    const bool varies = std::any_of(results.results.begin(), results.results.end(), [&, n = name](const Result& other) {
+      const auto found = other.key.params.find(n);
+      return other.key.experiment == result.key.experiment && other.key.method == result.key.method &&
+             found != other.key.params.end() && found->second != result.key.params.at(n);
+    });
+    if (varies)
+      out += fmt::format(" {}={}", name, std::visit([](const auto& v) { return fmt::format("{}", v); }, value));
+  }
+  return out;
+}
+
+struct SeriesName {
+  std::string experiment, scene, method, backend;
+  friend auto operator<=>(const SeriesName&, const SeriesName&) = default;
+};
+
+bool is_software(const Results& results, const std::string& backend) {
+  return std::any_of(results.backends.begin(), results.backends.end(),
+                     [&](const BackendResultInfo& info) { return info.id == backend && info.software; });
+}
+
+std::string time_to_error_table(const Results& results) {
+  std::vector<SeriesName> order;  // as first met
+  std::map<SeriesName, std::vector<CostPoint>> series;
+  for (size_t i = 0; i < results.results.size(); ++i) {
+    const Result& result = results.results[i];
+    const auto point = cost_point(results, i, "rmse");
+    if (!point) continue;
+    const SeriesName name{result.key.experiment, result.key.scene, result.key.method + variant_of(results, result),
+                          result.key.backend};
+    if (!series.contains(name)) order.push_back(name);
+    series[name].push_back(*point);
+  }
+  if (series.empty()) return {};
+  std::vector<Row> rows = {{"scene", "method", "backend"}};
+  for (const double target : kErrorTargets) rows[0].push_back(fmt::format("rmse {:g}", target));
+  rows[0].push_back("best rmse");
+  rows[0].emplace_back("at");
+  for (const SeriesName& name : order) {
+    Row row = {name.scene, name.method, name.backend + (is_software(results, name.backend) ? "*" : "")};
+    TimeToError best;
+    for (const double target : kErrorTargets) {
+      best = time_to_error(series[name], target);
+      row.push_back(best.seconds ? (best.interpolated ? "" : "<") + seconds_text(*best.seconds) : "-");
+    }
+    row.push_back(fmt::format("{:.1e}", best.best_error));
+    row.push_back(seconds_text(best.best_seconds));
+    rows.push_back(std::move(row));
+  }
+  return "Time a frame to reach an error (RMSE of the worst view; - not reached; < the coarsest setting that was "
+         "tried, or\n"
+         "one that was measured exactly; * software: never ranked against a GPU)\n\n" +
+         table(rows, 3);
+}
+
+std::string convergence_table(const Results& results) {
+  std::vector<Row> rows = {{"scene", "method", "backend", "axis", "order", "expected", "verdict"}};
+  for (const Convergence& row : results.convergence) {
+    if (row.verdict != "pass" && row.verdict != "fail") continue;
+    Result carrier;
+    carrier.key = row.key;
+    rows.push_back({row.key.scene, row.key.method + variant_of(results, carrier), row.key.backend, row.parameter,
+                    fmt::format("{:.2f}", row.fitted), fmt::format("{:g}", row.expected), row.verdict});
+  }
+  return rows.size() == 1 ? "" : "\nOrder of convergence (error ~ axis^order)\n\n" + table(rows, 4);
+}
+
+std::string parity_lines(const Results& results) {
+  if (results.parity.empty()) return {};
+  double worst = 0;
+  size_t apart = 0;
+  std::string out;
+  for (const ParityRow& row : results.parity) {
+    worst = std::max(worst, row.interior_max);
+    if (row.ok) continue;
+    ++apart;
+    out += fmt::format("  {} {} view {}: {} and {} differ by {:.2e} in {} of {} interior pixels (limit {:g})\n",
+                       row.key.scene, row.key.method, row.view, row.key.backend, row.other, row.interior_max,
+                       row.interior_over, row.interior_pixels, row.limit);
+  }
+  return fmt::format(
+             "\nBackends against each other: {} comparisons, {} above the limit, largest interior difference "
+             "{:.2e}\n",
+             results.parity.size(), apart, worst) +
+         out;
+}
+
+std::string outcome_lines(const Results& results) {
+  std::map<std::string, size_t> counts;
+  std::map<std::string, std::vector<std::string>> reasons;  // those that are not ok: reason -> cells
+  for (const Result& result : results.results) {
+    const std::string outcome = to_string(result.outcome);
+    ++counts[outcome];
+    if (result.outcome != Outcome::Ok)
+      reasons[outcome + ": " + result.reason].push_back(
+          fmt::format("{} {} {}", result.key.scene, result.key.method, result.key.backend));
+  }
+  std::string out = "\nCells:";
+  for (const auto& [outcome, count] : counts) out += fmt::format(" {} {}", count, outcome);
+  out += "\n";
+  for (const auto& [reason, cells] : reasons)
+    out += fmt::format("  {}\n    {}{}\n", reason, cells.front(),
+                       cells.size() > 1 ? fmt::format(" and {} more", cells.size() - 1) : "");
+  const auto failed =
+      std::count_if(results.self_test.begin(), results.self_test.end(), [](const SelfTestRow& row) { return !row.ok; });
+  if (!results.self_test.empty())
+    out += fmt::format("Metrics' self test: {} of {} check values met\n",
+                       results.self_test.size() - static_cast<size_t>(failed), results.self_test.size());
+  return out;
+}
+
+}  // namespace
+
+std::string seconds_text(double seconds) {
+  if (!std::isfinite(seconds)) return "-";
+  if (seconds < 1e-3) return fmt::format("{:.3g} us", seconds * 1e6);
+  return seconds < 1 ? fmt::format("{:.3g} ms", seconds * 1e3) : fmt::format("{:.3g} s", seconds);
+}
+
+std::string tables_text(const Results& results) {
+  return time_to_error_table(results) + convergence_table(results) + parity_lines(results) + outcome_lines(results);
+}
+
+}  // namespace volumark
