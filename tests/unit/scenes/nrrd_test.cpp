@@ -99,7 +99,6 @@ TEST(Nrrd, SpaceDirectionsOriginAndSpace) {
 
 TEST(Nrrd, WrongAmountOfDataSaysExpectedAndFound) {
   const std::string head = header("int16", "endian: little\nencoding: raw\n");
-  const Bytes one_short(encode(kValues).begin(), encode(kValues).end() - 1);
   const Bytes values = encode(kValues);
   EXPECT_THAT(error(bytes_of(head) + Bytes(values.begin(), values.end() - 1)),
               AllOf(HasSubstr("t.nrrd"), HasSubstr("expected 24 bytes, found 23")));
