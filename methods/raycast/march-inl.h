@@ -152,6 +152,15 @@ HWY_INLINE Floats middle_of(const Walk& walk, Floats k) {
   return hn::Min(hn::Min(hn::Add(k, half), hn::Mul(half, hn::Add(k, walk.steps))), walk.steps);
 }
 
+// Lanes come to the end of what they know at different times. A look-up serves all of them, so it waits until more than
+// three quarters of the rays that still march want it; the others' samples carry those that wait along: what they take
+// in transparent bricks adds nothing. (512 x 512 of two 128^3 peaks: a quarter to a third less time than looking up at
+// once. Waiting for all is better still there, but worse where neighbouring rays see different bricks.)
+HWY_INLINE bool look_up_waits(const Walk& walk, Floats k, FloatMask unknown) {
+  const FloatTag d;
+  return 4 * hn::CountTrue(d, unknown) <= 3 * hn::CountTrue(d, hn::Lt(k, walk.count));
+}
+
 // k becomes the first segment from k on whose middle does not lie in transparent bricks. Up to `inside` the ray is
 // known to be in an occupied one.
 HWY_INLINE void to_next_sample(const RaycastBindings& b, const Walk& walk, Floats& k, Floats& inside) {
@@ -159,7 +168,7 @@ HWY_INLINE void to_next_sample(const RaycastBindings& b, const Walk& walk, Float
   for (;;) {
     const Floats middle = middle_of(walk, k);
     const auto unknown = hn::And(hn::Lt(k, walk.count), hn::Ge(middle, inside));
-    if (hn::AllFalse(d, unknown)) return;
+    if (look_up_waits(walk, k, unknown)) return;
     const Cube cube = cube_at(b, walk, middle);
     const Floats next = hn::Max(hn::Add(k, splat(1.F)), hn::Ceil(hn::Sub(cube.until, splat(.5F))));
     k = hn::IfThenElse(hn::And(unknown, cube.empty), next, k);
@@ -168,13 +177,13 @@ HWY_INLINE void to_next_sample(const RaycastBindings& b, const Walk& walk, Float
   }
 }
 
-// k becomes the first segment from k on that does not lie in transparent bricks as a whole. Segments that begin before
+// Moves k on to the first segment that does not lie in transparent bricks as a whole. Segments that begin before
 // `inside` are known not to.
 HWY_INLINE void to_next_segment(const RaycastBindings& b, const Walk& walk, Floats& k, Floats& inside) {
   const FloatTag d;
   for (;;) {
     const auto unknown = hn::And(hn::Lt(k, walk.count), hn::Ge(k, inside));
-    if (hn::AllFalse(d, unknown)) return;
+    if (look_up_waits(walk, k, unknown)) return;
     const Cube cube = cube_at(b, walk, hn::Min(k, walk.steps));
     const Floats next = hn::IfThenElse(hn::Ge(cube.until, walk.steps), walk.count, hn::Floor(cube.until));
     const auto jumps = hn::And(cube.empty, hn::Gt(next, k));

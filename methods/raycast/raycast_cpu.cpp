@@ -1,5 +1,5 @@
 // Twin of raycast.vert and raycast.frag. Rays march in packets of one SIMD vector, taken from neighbouring pixels;
-// every lane does what the GLSL does for its ray, in its own time, so a ray's colour does not depend on its neighbours.
+// every lane does what the GLSL does for its ray, in its own time.
 #include "methods/raycast/raycast_cpu.h"
 
 #include "backends/cpu/highway_targets.h"

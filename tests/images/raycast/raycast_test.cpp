@@ -29,7 +29,8 @@ TEST_F(RaycastImages, SkippingChangesNothing) {
     const Scene scene = shipped_scene(name);
     for (const char* step : {"3", "0.7"}) {
       for (const char* classification : {"post", "preintegrated"}) {
-        const Image all = picture(scene, {{"step", step}, {"classification", classification}, {"skip_empty", "none"}});
+        const Image all =
+            picture(scene, {{"step", step}, {"classification", classification}, {"skip_empty", "none"}}, 48, 48);
         for (const char* brick : {"3", "16"}) {
           const Image skipped = picture(
               scene,
