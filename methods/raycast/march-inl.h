@@ -164,7 +164,6 @@ HWY_INLINE bool look_up_waits(const Walk& walk, Floats k, FloatMask unknown) {
 // k becomes the first segment from k on whose middle does not lie in transparent bricks. Up to `inside` the ray is
 // known to be in an occupied one.
 HWY_INLINE void to_next_sample(const RaycastBindings& b, const Walk& walk, Floats& k, Floats& inside) {
-  const FloatTag d;
   for (;;) {
     const Floats middle = middle_of(walk, k);
     const auto unknown = hn::And(hn::Lt(k, walk.count), hn::Ge(middle, inside));
@@ -180,7 +179,6 @@ HWY_INLINE void to_next_sample(const RaycastBindings& b, const Walk& walk, Float
 // Moves k on to the first segment that does not lie in transparent bricks as a whole. Segments that begin before
 // `inside` are known not to.
 HWY_INLINE void to_next_segment(const RaycastBindings& b, const Walk& walk, Floats& k, Floats& inside) {
-  const FloatTag d;
   for (;;) {
     const auto unknown = hn::And(hn::Lt(k, walk.count), hn::Ge(k, inside));
     if (look_up_waits(walk, k, unknown)) return;

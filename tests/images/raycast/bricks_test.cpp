@@ -113,7 +113,9 @@ TEST(OpaqueValues, NoOpaqueValueIsMissed) {
           EXPECT_LT(normalised, static_cast<double>(opaque.window().hi));
         }
       }
-      EXPECT_EQ(opaque.any(-125, -62), nodes < 64);  // coarse tables spread the peak
+      // Coarse tables spread the peak, and point samples at the window's two ends miss it.
+      const bool missed = nodes == 2 && classification == Classification::Post;
+      EXPECT_EQ(opaque.any(-125, -62), nodes < 64 && !missed) << nodes;
     }
   }
 }

@@ -34,7 +34,8 @@ TEST_F(RaycastImages, SkippingChangesNothing) {
         for (const char* brick : {"3", "16"}) {
           const Image skipped = picture(
               scene,
-              {{"step", step}, {"classification", classification}, {"skip_empty", "bricks"}, {"brick_size", brick}});
+              {{"step", step}, {"classification", classification}, {"skip_empty", "bricks"}, {"brick_size", brick}}, 48,
+              48);
           const Difference d = difference(all, skipped);
           EXPECT_LE(d.max, kRounding) << name << " step " << step << " " << classification << " bricks of " << brick
                                       << " at " << d.x << ", " << d.y;
