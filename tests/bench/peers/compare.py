@@ -20,6 +20,7 @@ import sys
 import numpy
 
 HERE = pathlib.Path(__file__).resolve().parent
+TARGET_RMSE = 0.002
 BASELINE = "VTK GPU mapper on llvmpipe, float, step 0.5"
 
 
@@ -38,6 +39,7 @@ CONFIGURATIONS = {
     "VTK GPU mapper on llvmpipe, float, step 1": vtk("gpu", "f32", 1),
     BASELINE: vtk("gpu", "f32", 0.5),
     "VTK GPU mapper on llvmpipe, float, step 0.25": vtk("gpu", "f32", 0.25),
+    "raycast cpu, step 2": ours("raycast", "cpu", step=2),
     "raycast cpu, step 1": ours("raycast", "cpu", step=1),
     "raycast cpu, step 0.5": ours("raycast", "cpu", step=0.5),
     "raycast cpu, step 0.45": ours("raycast", "cpu", step=0.45),
@@ -111,6 +113,11 @@ def print_table(scene, results):
         ratio = f"{baseline / row['median_ms']:.1f} x" if baseline else ""
         mark = "baseline" if label == BASELINE else ratio
         print(f"{label:46s} {row['median_ms']:8.1f} {row['rmse']:8.5f} {mark:>22s}")
+    for program in ("VTK", "raycast"):
+        near = [(row["median_ms"], label) for label, row in results.items()
+                if label.startswith(program) and row["median_ms"] is not None and row["rmse"] <= TARGET_RMSE]
+        answer = "{1}, {0:.1f} ms".format(*min(near)) if near else "none of these"
+        print(f"  cheapest {program} at RMSE <= {TARGET_RMSE}: {answer}")
 
 
 def main():
