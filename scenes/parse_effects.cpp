@@ -26,12 +26,14 @@ Light parse_light(const JsonNode& node, size_t index, ScenePlan& plan) {
 }
 
 Lighting parse_lighting(const JsonNode& node, ScenePlan& plan) {
-  const JsonObject object(node, {"ambient", "diffuse", "specular", "shininess", "two_sided", "lights"});
+  const JsonObject object(node,
+                          {"ambient", "diffuse", "specular", "shininess", "two_sided", "gradient_floor", "lights"});
   Lighting lighting;
   lighting.ambient = object.number_or("ambient", lighting.ambient, 0, 1000);
   lighting.diffuse = object.number_or("diffuse", lighting.diffuse, 0, 1000);
   lighting.specular = object.number_or("specular", lighting.specular, 0, 1000);
   lighting.shininess = object.number_or("shininess", lighting.shininess, 1, 10000);
+  lighting.gradient_floor = object.number_or("gradient_floor", lighting.gradient_floor, 1e-6, 10);
   if (const auto two_sided = object.find("two_sided")) lighting.two_sided = two_sided->boolean();
   for (const JsonNode& light : object.at("lights").array(1, 1000)) {
     lighting.lights.push_back(parse_light(light, lighting.lights.size(), plan));

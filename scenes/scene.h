@@ -40,15 +40,20 @@ struct Light {
 };
 
 // Blinn-Phong per sample, with g the central-difference gradient stored at samples (index differences clamped at the
-// border, divided by 2 spacing), interpolated trilinearly, normalised after interpolation; n = -g / |g| (0 where
-// |g| = 0: then only the ambient term). l: to the light, v: to the eye, h = (l + v) / |l + v|. Lit colour =
-// c (ambient + sum_i L_i diffuse max(0, n.l)) + sum_i L_i specular max(0, n.h)^shininess [n.l > 0];
-// two_sided: |n.l| and |n.h| instead of max(0, .), and the specular term always.
+// border, divided by 2 spacing), interpolated trilinearly, normalised after interpolation: n = -g / max(|g|, floor).
+// Below the floor the normal shortens with the gradient: the direction of a gradient that vanishes is rounding noise,
+// and would show as such; in homogeneous matter only the ambient term is left. l: to the light, v: to the eye, h = (l +
+// v) / |l + v|. Lit colour = c (ambient + sum_i L_i diffuse max(0, n.l)) + sum_i L_i specular max(0, n.h)^shininess
+// [n.l > 0]; two_sided: |n.l| and |n.h| instead of max(0, .), and the specular term always.
 struct Lighting {
   double ambient = 0.2, diffuse = 0.8, specular = 0, shininess = 32;
   bool two_sided = false;
-  std::vector<Light> lights;  // at least one
+  double gradient_floor = 1. / 64;  // > 0; in widths of the transfer window a smallest voxel spacing
+  std::vector<Light> lights;        // at least one
 };
+
+// The floor of |g| in data units a world unit.
+double gradient_floor(const Lighting& lighting, const TransferFunction& transfer, const Volume& volume);
 
 struct ClipPlane {
   glm::dvec3 normal{0, 0, 1};  // unit

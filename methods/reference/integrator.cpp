@@ -115,7 +115,10 @@ RayResult Integrator::integrate(const Ray& ray, double tolerance) const {
   limits.gain = lighting_.gain;
   limits.offset = lighting_.offset;
   std::optional<RayLights> lights;
-  if (lit()) lights.emplace(*scene_.effects.lighting, lattice_.volume(), ray);
+  if (lit()) {
+    const Lighting& lighting = *scene_.effects.lighting;
+    lights.emplace(lighting, lattice_.volume(), ray, gradient_floor(lighting, scene_.transfer, lattice_.volume()));
+  }
   Accumulator sum(limits, lights ? &*lights : nullptr);
 
   sum.add_error(std::min(1.0, span->error0 * transfer_.max_extinction()) * max_radiance_);

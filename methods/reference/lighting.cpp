@@ -15,6 +15,14 @@ glm::dvec3 unit_or_zero(const glm::dvec3& v) {
   return length > 0 ? v / length : glm::dvec3(0);
 }
 
+// The zeros in (0, 1) of a polynomial, trailing zero coefficients allowed.
+void append_roots(std::span<const double> polynomial, std::vector<double>& splits) {
+  while (polynomial.size() > 1 && polynomial.back() == 0) polynomial = polynomial.first(polynomial.size() - 1);
+  if (one_sign_on_unit(polynomial)) return;
+  const Roots roots = roots_between(polynomial, 0, 1);
+  for (int i = 0; i < roots.count; ++i) splits.push_back(roots.at[static_cast<size_t>(i)]);
+}
+
 double whole_power(double base, int exponent) {
   double result = 1;
   for (; exponent > 0; exponent >>= 1, base *= base)
@@ -24,7 +32,8 @@ double whole_power(double base, int exponent) {
 
 }  // namespace
 
-RayLights::RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray) : lighting_(lighting) {
+RayLights::RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray, double floor)
+    : lighting_(lighting), floor_(floor) {
   const glm::dmat3 to_axes = glm::transpose(volume.axes);
   direction_ = to_axes * ray.direction;
   const double shininess = lighting.shininess;
@@ -40,7 +49,7 @@ RayLights::RayLights(const Lighting& lighting, const Volume& volume, const Ray& 
 
 glm::dvec3 RayLights::shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour) const {
   glm::dvec3 diffuse(lighting_.ambient), specular(0);
-  const glm::dvec3 normal = -unit_or_zero(gradient);
+  const glm::dvec3 normal = gradient / -std::max(glm::length(gradient), floor_);
   for (const LightOnRay& light : lights_) {
     const glm::dvec3 to_light = light.point ? unit_or_zero(light.vector - t * direction_) : light.vector;
     double n_l = glm::dot(normal, to_light);
@@ -68,11 +77,15 @@ void RayLights::append_splits(const GradientChord& gradient, double t0, double l
         product[k + 1] += gradient[a][k] * change[axis];
       }
     }
-    const std::span<const double> polynomial(product.data(), product[4] != 0 ? 5 : 4);
-    if (one_sign_on_unit(polynomial)) return;
-    const Roots roots = roots_between(polynomial, 0, 1);
-    for (int i = 0; i < roots.count; ++i) splits.push_back(roots.at[static_cast<size_t>(i)]);
+    append_roots(product, splits);
   };
+  std::array<double, 7> excess{-floor_ * floor_};  // |g|^2 - floor^2
+  for (const Cubic& component : gradient) {
+    for (size_t i = 0; i < 4; ++i) {
+      for (size_t k = 0; k < 4; ++k) excess[i + k] += component[i] * component[k];
+    }
+  }
+  append_roots(excess, splits);
   const bool kinked_highlights = lighting_.specular > 0 && lighting_.shininess < kSmoothPower;
   for (const LightOnRay& light : lights_) {
     if (light.point) {

@@ -14,12 +14,14 @@ using GradientChord = std::array<Cubic, 3>;  // components as functions of u in 
 
 class RayLights {
  public:
-  RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray);
+  // `floor`: gradient_floor() of the scene.
+  RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray, double floor);
 
   // Lit colour at distance t along the ray, where the gradient and the unlit colour are these.
   glm::dvec3 shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour) const;
 
-  // Appends the u in (0, 1) of the chord [t0, t0 + length] where some light changes sides.
+  // Appends the u in (0, 1) of the chord [t0, t0 + length] where some light changes sides, or the gradient's
+  // length passes the floor.
   void append_splits(const GradientChord& gradient, double t0, double length, std::vector<double>& splits) const;
 
  private:
@@ -33,6 +35,7 @@ class RayLights {
                               std::vector<double>& splits) const;
 
   const Lighting& lighting_;
+  double floor_;
   glm::dvec3 direction_;
   int whole_shininess_;  // the exponent where it is a whole number up to 1024, else -1
   std::vector<LightOnRay> lights_;

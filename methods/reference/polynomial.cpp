@@ -73,7 +73,13 @@ Roots roots_between(std::span<const double> c, double lo, double hi) {
 bool one_sign_on_unit(std::span<const double> c) {
   // b_k = sum over i <= k of binomial(k, i) / binomial(degree, i) c_i, by repeated addition of neighbours.
   static constexpr double inverse_binomial[kMaxDegree + 1][kMaxDegree + 1] = {
-      {1}, {1, 1}, {1, 1.0 / 2, 1}, {1, 1.0 / 3, 1.0 / 3, 1}, {1, 1.0 / 4, 1.0 / 6, 1.0 / 4, 1}};
+      {1},
+      {1, 1},
+      {1, 1.0 / 2, 1},
+      {1, 1.0 / 3, 1.0 / 3, 1},
+      {1, 1.0 / 4, 1.0 / 6, 1.0 / 4, 1},
+      {1, 1.0 / 5, 1.0 / 10, 1.0 / 10, 1.0 / 5, 1},
+      {1, 1.0 / 6, 1.0 / 15, 1.0 / 20, 1.0 / 15, 1.0 / 6, 1}};
   const size_t n = c.size();
   std::array<double, kMaxDegree + 1> b;
   for (size_t k = 0; k < n; ++k) b[k] = c[k] * inverse_binomial[n - 1][k];

@@ -6,7 +6,7 @@
 
 namespace volumark {
 
-inline constexpr int kMaxDegree = 4;
+inline constexpr int kMaxDegree = 6;
 using Cubic = std::array<double, 4>;
 
 template <size_t N>

@@ -27,7 +27,7 @@ struct Reference {
 };
 
 // Bumped whenever an image may change: part of the cache key.
-inline constexpr int kReferenceVersion = 2;
+inline constexpr int kReferenceVersion = 3;
 
 Reference render_reference(const Scene& scene, const View& view, int width, int height,
                            const ReferenceOptions& options = {});

@@ -30,7 +30,7 @@ layout(std140, binding = 0) uniform VolumeUniforms {
   vec4 texture_offset;
   vec4 texel;           // texture coordinates between neighbouring samples
   vec4 value;           // s_n = (stored - x) * y; z: transfer table size - 1; w: pre-integration table size - 1
-  vec4 gradient_scale;  // smallest spacing / spacing
+  vec4 gradient_scale;  // smallest spacing / spacing; w: length below which the normal shortens
   vec4 eye;             // local frame; w: 1 perspective, 0 orthographic
   vec4 forward;         // local frame, unit
   vec4 lighting;        // ambient, diffuse, specular, shininess
@@ -137,10 +137,7 @@ void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
   diffuse = vec3(vm.lighting.x);
   specular = vec3(0.);
   vec3 g = sample_gradient(box);
-  float g2 = dot(g, g);
-  // Differences of equal voxels come out as rounding noise of filtering: below 2^-20 there is no direction in them.
-  if (g2 < 9e-13) return;
-  vec3 n = g * -inversesqrt(g2);
+  vec3 n = g / -max(length(g), vm.gradient_scale.w);
   vec3 local = (box - .5) * vm.extent.xyz;
   vec3 v = vm.eye.w > 0. ? normalize(vm.eye.xyz - local) : -vm.forward.xyz;
   for (int i = 0; i < VM_LIGHTS; ++i) {

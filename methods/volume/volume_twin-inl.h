@@ -217,9 +217,7 @@ HWY_INLINE Light3 light_sample(const VolumeBindings& b, const Floats3& box) {
   const VolumeUniforms& vm = b.vm;
   const Floats zero = splat(0.F);
   const Floats3 g = sample_gradient(b, box);
-  const Floats g2 = dot(g, g);
-  const auto flat = hn::Lt(g2, splat(9e-13F));
-  const Floats3 n = scaled(g, hn::Div(splat(-1.F), hn::Sqrt(hn::Max(g2, splat(9e-13F)))));
+  const Floats3 n = scaled(g, hn::Div(splat(-1.F), hn::Max(hn::Sqrt(dot(g, g)), splat(vm.gradient_scale[3]))));
   const Floats3 local = scaled(
       Floats3{hn::Sub(box.x, splat(.5F)), hn::Sub(box.y, splat(.5F)), hn::Sub(box.z, splat(.5F))} * splat3(vm.extent),
       splat(1.F));
@@ -233,13 +231,13 @@ HWY_INLINE Light3 light_sample(const VolumeBindings& b, const Floats3& box) {
     const Floats3 l = light.vector[3] > 0 ? normalised(splat3(light.vector) - local) : splat3(light.vector);
     const Floats nl = dot(n, l);
     const Floats facing = two_sided ? hn::Abs(nl) : hn::Max(nl, zero);
-    sum.diffuse = along(sum.diffuse, hn::IfThenElse(flat, zero, hn::Mul(facing, splat(vm.lighting[1]))), colour);
+    sum.diffuse = along(sum.diffuse, hn::Mul(facing, splat(vm.lighting[1])), colour);
     if (vm.counts[2] > 0) {
       const Floats3 h = l + v;
       const Floats h2 = dot(h, h);
       Floats nh = hn::IfThenElse(hn::Gt(h2, zero), hn::Div(dot(n, h), hn::Sqrt(hn::Max(h2, splat(1e-35F)))), zero);
       nh = two_sided ? hn::Abs(nh) : hn::IfThenElse(hn::Gt(nl, zero), hn::Max(nh, zero), zero);
-      const auto lit = hn::AndNot(flat, hn::Gt(nh, zero));
+      const auto lit = hn::Gt(nh, zero);
       const Floats shine = hn::Mul(power_of(nh, vm.lighting[3]), splat(vm.lighting[2]));
       sum.specular = along(sum.specular, hn::IfThenElse(lit, shine, zero), colour);
     }

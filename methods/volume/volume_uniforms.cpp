@@ -112,6 +112,10 @@ VolumeUniforms volume_uniforms(const Scene& scene, const View& view, int width, 
   uniforms.texture_offset = float4(0.5 / size);
   uniforms.texel = float4(1. / size);
   uniforms.gradient_scale = float4(smallest / volume.spacing);
+  if (scene.effects.lighting) {
+    // Gradients in the program are differences over two smallest spacings, in widths of the window.
+    uniforms.gradient_scale[3] = static_cast<float>(2 * scene.effects.lighting->gradient_floor);
+  }
   uniforms.eye = float4(rays.eye, view.perspective ? 1 : 0);
   uniforms.forward = float4(rays.forward);
   fill_effects(scene, frame, uniforms);

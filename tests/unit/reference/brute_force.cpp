@@ -92,12 +92,18 @@ struct Tracer {
     return g;
   }
 
+  // Of the gradient's length, data units a world unit.
+  double floor() const {
+    const glm::dvec3 spacing = scene.volume->spacing;
+    const double window = scene.transfer.hi - scene.transfer.lo;
+    return scene.effects.lighting->gradient_floor * window / std::min({spacing.x, spacing.y, spacing.z});
+  }
+
   glm::dvec3 lit(const glm::dvec3& colour, const glm::dvec3& g, Real t) const {
     const Lighting& l = *scene.effects.lighting;
     const glm::dvec3 p = ray.origin + static_cast<double>(t) * ray.direction;
     glm::dvec3 out = colour * l.ambient;
-    if (glm::length(g) == 0) return out;
-    const glm::dvec3 n = -glm::normalize(g);
+    const glm::dvec3 n = g / -std::max(glm::length(g), floor());
     for (const Light& light : l.lights) {
       const glm::dvec3 to_light =
           light.kind == Light::Kind::Point ? glm::normalize(light.vector - p) : glm::normalize(light.vector);
@@ -110,26 +116,33 @@ struct Tracer {
   }
 };
 
-// Where g . l or g . h changes sign for some light: shading bends or jumps there.
-void append_shading_cuts(const Tracer& tracer, const glm::ivec3& cell, Real t0, Real t1, std::vector<Real>& cuts) {
+// Where g . l or g . h changes sign for some light, or |g| passes the floor: shading bends or jumps there.
+template <class Side>
+void append_changes(const Side& side, Real t0, Real t1, std::vector<Real>& cuts) {
   constexpr int samples = 48;
+  for (int i = 0; i < samples; ++i) {
+    Real a = t0 + (t1 - t0) * i / samples, b = t0 + (t1 - t0) * (i + 1) / samples;
+    const bool before = side(a);
+    if (before == side(b)) continue;
+    for (int k = 0; k < 60; ++k) {
+      const Real m = (a + b) / 2;
+      (side(m) == before ? a : b) = m;
+    }
+    cuts.push_back((a + b) / 2);
+  }
+}
+
+void append_shading_cuts(const Tracer& tracer, const glm::ivec3& cell, Real t0, Real t1, std::vector<Real>& cuts) {
+  const double floor = tracer.floor();
+  append_changes([&](Real t) { return glm::length(tracer.gradient(cell, t)) > floor; }, t0, t1, cuts);
   for (const Light& light : tracer.scene.effects.lighting->lights) {
     for (const bool half : {false, true}) {
-      auto side = [&](Real t) {
+      const auto side = [&](Real t) {
         const glm::dvec3 p = tracer.ray.origin + static_cast<double>(t) * tracer.ray.direction;
         const glm::dvec3 l = glm::normalize(light.kind == Light::Kind::Point ? light.vector - p : light.vector);
         return glm::dot(tracer.gradient(cell, t), half ? l - tracer.ray.direction : l) > 0;
       };
-      for (int i = 0; i < samples; ++i) {
-        Real a = t0 + (t1 - t0) * i / samples, b = t0 + (t1 - t0) * (i + 1) / samples;
-        const bool before = side(a);
-        if (before == side(b)) continue;
-        for (int k = 0; k < 60; ++k) {
-          const Real m = (a + b) / 2;
-          (side(m) == before ? a : b) = m;
-        }
-        cuts.push_back((a + b) / 2);
-      }
+      append_changes(side, t0, t1, cuts);
     }
   }
 }
