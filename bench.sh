@@ -10,4 +10,4 @@ out=out/quick
 args=("$@")
 build/release/bin/volumark run quick --out "$out" "${args[@]+"${args[@]}"}"
 build/release/bin/volumark validate "$out/results.json"
-echo "report: $out/report.html"
+build/release/bin/volumark report "$out" | tail -n 1

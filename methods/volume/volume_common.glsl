@@ -139,10 +139,11 @@ void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
   vec3 g = sample_gradient(box);
   vec3 n = g / -max(length(g), vm.gradient_scale.w);
   vec3 local = (box - .5) * vm.extent.xyz;
-  vec3 v = vm.eye.w > 0. ? normalize(vm.eye.xyz - local) : -vm.forward.xyz;
+  // Without branches on uniforms: lavapipe would build the program anew for every frame's values of them.
+  vec3 v = normalize(mix(-vm.forward.xyz, vm.eye.xyz - local, vm.eye.w));
   for (int i = 0; i < VM_LIGHTS; ++i) {
     vec4 light = vm.lights[i].vector;
-    vec3 l = light.w > 0. ? normalize(light.xyz - local) : light.xyz;
+    vec3 l = normalize(light.xyz - light.w * local);
     float nl = dot(n, l);
     diffuse += vm.lights[i].colour.rgb * (vm.lighting.y * (VM_TWO_SIDED == 1 ? abs(nl) : max(nl, 0.)));
     if (VM_SPECULAR == 1) {
