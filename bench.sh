@@ -8,6 +8,6 @@ cmake --preset release -DVM_TESTS=OFF >/dev/null
 cmake --build --preset release -j "$(nproc)"
 out=out/quick
 args=("$@")
-build/release/bin/volumark run quick --out "$out" "${args[@]+"${args[@]}"}"
+build/release/bin/volumark run quick --out "$out" --overwrite "${args[@]+"${args[@]}"}"
 build/release/bin/volumark validate "$out/results.json"
 build/release/bin/volumark report "$out" | tail -n 1

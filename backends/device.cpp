@@ -429,6 +429,17 @@ void Device::end_pass() {
   state_->backend->end_pass();
 }
 
+void Device::abandon() noexcept {
+  try {
+    if (state_->pass) end_pass();
+    while (state_->open_zones > 0) end_zone();
+    state_->backend->submit_and_wait();
+  } catch (const std::exception&) {  // what was thrown first is what the caller reports
+  }
+  state_->pass.reset();
+  state_->open_zones = 0;
+}
+
 void Device::dispatch(const DispatchDesc& desc) {
   const ProgramSlot& program = State::resolve(state_->programs, desc.program, {"dispatch", "program"}, "program");
   const Call call{"dispatch", program.desc.label};

@@ -62,6 +62,10 @@ class Device {
   void end_pass();
   void dispatch(const DispatchDesc& desc);
 
+  // After an exception during recording: closes the open pass and zones, so that objects can be destroyed. The target's
+  // contents are undefined. Nothing where nothing is open.
+  void abandon() noexcept;
+
   // Zones nest; `name` as in measurement.md: classify, upload, raster, shade.
   void begin_zone(std::string_view name);
   void end_zone();

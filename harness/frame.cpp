@@ -33,8 +33,13 @@ FrameSource::~FrameSource() {
 FrameCost FrameSource::frame(const View& view) {
   FrameCost out;
   const Instant start = now();
-  prepared_->render(view, device_, target_);
-  out.zones = device_.submit_and_wait();
+  try {
+    prepared_->render(view, device_, target_);
+    out.zones = device_.submit_and_wait();
+  } catch (...) {
+    device_.abandon();  // or nothing that was prepared could be destroyed
+    throw;
+  }
   out.cost = since(start);
   return out;
 }

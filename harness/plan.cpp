@@ -102,7 +102,8 @@ std::string command_of(const Experiment& experiment, const CellKey& key) {
     }
     if (seen.size() > 1) out += " --only " + quoted(name + "=" + to_string(value));
   }
-  return out;
+  // A folder of its own: the results that name this command stay.
+  return out + " --overwrite --out out/again";
 }
 
 Group make_group(const Experiment& experiment, const std::string& scene, const ExperimentMethod& method,

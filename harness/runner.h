@@ -19,7 +19,7 @@ struct RunOptions {
   std::filesystem::path out;
   std::filesystem::path cache;  // of references
   bool resume = false;
-  bool overwrite = false;  // an unfinished run in `out` may be thrown away
+  bool overwrite = false;  // a run in `out` may be replaced
   bool images = true;      // false: keep none, whatever the experiments say
   DataOptions data;
   CellOptions cell;

@@ -51,9 +51,11 @@ int render_with_method(const RenderOptions& options, const Scene& scene, int wid
   FrameSource source(scene, method, values, device, width, height);
   const FrameCost first = source.frame(view);
   write_image(options.out, source.read_back(), scene.background);
-  fmt::print("{}: {}x{}, {} on {} ({}): prepare {}, first frame {}\n", options.out, width, height, method.info().name,
-             options.backend, device.info().renderer, duration_text(source.prepare_cost().cost.wall),
-             duration_text(first.cost.wall));
+  fmt::print(
+      "{}: {}x{}, {} on {} ({}): prepare {}, first frame {}, peak {:.1f} MiB on the device ({:.1f} MiB of voxels)\n",
+      options.out, width, height, method.info().name, options.backend, device.info().renderer,
+      duration_text(source.prepare_cost().cost.wall), duration_text(first.cost.wall),
+      static_cast<double>(device.peak_bytes()) / 1048576, static_cast<double>(scene.volume->voxels.size()) / 1048576);
   return kOk;
 }
 

@@ -62,7 +62,7 @@ void add_run(CLI::App& app, const Globals& globals, Action& action) {
       ->required();
   command->add_option("--out,-o", arguments->out, "folder for results.json and images (default: out/EXPERIMENT)");
   command->add_flag("--resume", options.resume, "go on with an unfinished run in that folder");
-  command->add_flag("--overwrite", options.overwrite, "throw away an unfinished run in that folder");
+  command->add_flag("--overwrite", options.overwrite, "replace the run that is in that folder");
   command->add_option("--backend,-b", options.filter.backends, "only these backends")->delimiter(',');
   command->add_option("--scene", options.filter.scenes, "only these scenes")->delimiter(',');
   command->add_option("--method,-m", options.filter.methods, "only these methods")->delimiter(',');

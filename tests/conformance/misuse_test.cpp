@@ -214,5 +214,17 @@ TEST_F(Misuse, DispatchesAndZones) {
   device.end_zone();
 }
 
+TEST_F(Misuse, AbandonClosesWhatIsOpen) {
+  const Texture texture = device.create_texture({.label = "plain", .width = 4, .height = 4});
+  device.begin_zone("outer");
+  device.begin_zone("raster");
+  canvas.begin();
+  canvas.device.draw(good_draw());
+  device.abandon();
+  device.destroy(texture);  // allowed again
+  device.submit_and_wait();
+  device.abandon();  // nothing is open: nothing happens
+}
+
 }  // namespace
 }  // namespace volumark::conformance

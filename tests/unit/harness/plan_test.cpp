@@ -39,7 +39,8 @@ TEST(Plan, FiltersLeaveWhatTheyName) {
   ASSERT_EQ(groups.size(), 1U);
   ASSERT_EQ(groups[0].cells.size(), 1U);
   EXPECT_EQ(groups[0].cells[0].command,
-            "volumark run /tmp/e.json --scene slab --method raycast --backend null --only step=1");
+            "volumark run /tmp/e.json --scene slab --method raycast --backend null --only step=1 --overwrite --out "
+            "out/again");
 }
 
 TEST(Plan, AFilterThatNamesNothingIsAMistake) {
