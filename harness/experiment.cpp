@@ -56,7 +56,7 @@ std::vector<std::string> parse_scenes(const JsonNode& node) {
 std::vector<std::string> parse_backends(const JsonNode& node) {
   std::vector<std::string> known;
   for (const BackendEntry& entry : backend_list()) known.emplace_back(entry.id);
-  const std::vector<std::string> backends = unique_strings(node, "backend");
+  std::vector<std::string> backends = unique_strings(node, "backend");
   for (const JsonNode& one : node.array()) must_be_known(one, one.string(), "backend", known);
   return backends;
 }

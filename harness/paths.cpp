@@ -30,13 +30,13 @@ std::vector<fs::path> library_folders() {
 }
 
 fs::path experiment_directory() {
-  if (const fs::path folder = from_environment("VOLUMARK_EXPERIMENTS"); !folder.empty()) return folder;
+  if (fs::path folder = from_environment("VOLUMARK_EXPERIMENTS"); !folder.empty()) return folder;
   const fs::path installed = executable_folder() / "../share/volumark/experiments";
   return fs::exists(installed) ? installed.lexically_normal() : fs::path(VM_SOURCE_DIRECTORY "/harness/experiments");
 }
 
 fs::path cache_directory() {
-  if (const fs::path folder = from_environment("VOLUMARK_CACHE"); !folder.empty()) return folder;
+  if (fs::path folder = from_environment("VOLUMARK_CACHE"); !folder.empty()) return folder;
   if (const fs::path folder = from_environment("XDG_CACHE_HOME"); !folder.empty()) return folder / "volumark";
   if (const fs::path folder = from_environment("HOME"); !folder.empty()) return folder / ".cache/volumark";
   return fs::temp_directory_path() / "volumark-cache";

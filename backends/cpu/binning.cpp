@@ -27,7 +27,7 @@ void for_each_tile(const PassWork& work, const Triangle& triangle, const Visit& 
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       if (!several || may_cover(triangle, x, y)) {
-        visit(static_cast<size_t>(y * work.tiles_x + x));
+        visit(static_cast<size_t>(y) * static_cast<size_t>(work.tiles_x) + static_cast<size_t>(x));
       }
     }
   }

@@ -54,7 +54,7 @@ class TextureStorage {
   // D32FS8: two tight planes.
   float* depth_plane() const { return reinterpret_cast<float*>(block_->data()); }
   uint8_t* stencil_plane() const {
-    return stencil_.get() == nullptr ? nullptr : reinterpret_cast<uint8_t*>(stencil_->data());
+    return stencil_ == nullptr ? nullptr : reinterpret_cast<uint8_t*>(stencil_->data());
   }
 
   CpuTexture view(const Sampler& sampler) const;

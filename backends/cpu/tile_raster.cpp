@@ -225,7 +225,7 @@ class TileRaster {
 };
 
 void raster_tile_impl(const PassWork& work, int tile_x, int tile_y, TileScratch& scratch) {
-  const auto tile = static_cast<size_t>(tile_y * work.tiles_x + tile_x);
+  const size_t tile = static_cast<size_t>(tile_y) * static_cast<size_t>(work.tiles_x) + static_cast<size_t>(tile_x);
   const uint32_t begin = work.bin_starts[tile], end = work.bin_starts[tile + 1];
   if (begin == end && !work.desc.clear_colour && (work.depth_stencil == nullptr || !work.desc.clear_depth_stencil)) {
     return;

@@ -165,6 +165,7 @@ int bench(const std::vector<std::string>& flags, const Globals& globals) {
                                         "--benchmark_min_time=0.3"};
   arguments.insert(arguments.end(), flags.begin(), flags.end());
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) argv.push_back(argument.data());
   argv.push_back(nullptr);
   int argc = static_cast<int>(arguments.size());

@@ -83,7 +83,9 @@ bool extinction_within(const TransferFunction& transfer, double lo, double hi) {
 void sweep(std::vector<uint8_t>& distance, const glm::ivec3& n, bool forward) {
   const int sign = forward ? 1 : -1;
   const auto at = [&](int x, int y, int z) -> uint8_t& {
-    return distance[static_cast<size_t>((z * n.y + y) * n.x + x)];
+    return distance[(static_cast<size_t>(z) * static_cast<size_t>(n.y) + static_cast<size_t>(y)) *
+                        static_cast<size_t>(n.x) +
+                    static_cast<size_t>(x)];
   };
   for (int kz = 0; kz < n.z; ++kz) {
     const int z = forward ? kz : n.z - 1 - kz;

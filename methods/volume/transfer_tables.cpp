@@ -115,6 +115,7 @@ glm::vec4 as_homogeneous(const Stretch& stretch, double mean_extinction, double 
 std::vector<float> transfer_table(const TransferFunction& transfer, int nodes) {
   const int count = nodes - 1;
   std::vector<glm::dvec4> values;
+  values.reserve(static_cast<size_t>(nodes));
   for (int i = 0; i < nodes; ++i) values.push_back(transfer.at(transfer.lo + (transfer.hi - transfer.lo) * i / count));
   // A jump inside an interval becomes a ramp over it. The nearer of its two nodes is moved so that the integral over
   // the table stays that of the jump: it then errs in width, not in place.
