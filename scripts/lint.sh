@@ -29,5 +29,5 @@ if [ "$what" = includes ] || [ "$what" = all ]; then
   check_includes harness methods reports scenes backends
 fi
 if [ "$what" = tidy ] || [ "$what" = all ]; then
-  sources | grep '\.cpp$' | xargs -P "$(nproc)" -n 4 clang-tidy -p build/ci --quiet
+  sources | grep '\.cpp$' | xargs -P "$(nproc)" -n 4 clang-tidy -p build/ci --quiet --extra-arg=-Wno-unknown-warning-option
 fi
