@@ -159,9 +159,9 @@ void parse_sampling(const JsonObject& object, Experiment& out) {
 Experiment parse_experiment(std::string_view text, const std::string& path) {
   const nlohmann::json json = parse_json(text, path);
   const JsonNode root(json, "", path);
-  const JsonObject object(
-      root, {"name", "title", "description", "scenes", "methods", "backends", "views", "image_size", "sampling",
-             "images", "reference_tolerance", "limits", "finest_limits", "parity", "expect_order_on"});
+  const JsonObject object(root, {"name", "title", "description", "scenes", "methods", "backends", "views", "image_size",
+                                 "sampling", "images", "reference_tolerance", "limits", "finest_limits", "parity",
+                                 "attribute", "pairs", "effects", "expect_order_on"});
   Experiment out;
   out.path = path;
   out.name = object.at("name").string();
@@ -190,6 +190,9 @@ Experiment parse_experiment(std::string_view text, const std::string& path) {
   if (const auto limits = object.find("limits")) out.limits = parse_limits(*limits);
   if (const auto limits = object.find("finest_limits")) out.finest_limits = parse_limits(*limits);
   out.parity = object.number_or("parity", 0, 0, 1);
+  if (const auto attribute = object.find("attribute")) out.attribute = attribute->boolean();
+  if (const auto pairs = object.find("pairs")) out.pairs = pairs->boolean();
+  if (const auto effects = object.find("effects")) out.effects = effects->boolean();
   if (const auto smooth = object.find("expect_order_on")) {
     out.expect_order_on = unique_strings(*smooth, "scene");
     for (const JsonNode& one : smooth->array())

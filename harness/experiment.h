@@ -41,7 +41,10 @@ struct Experiment {
   // Metric -> worst allowed value, over the views of a cell: rmse, max, bias, flip_p99; `finest` gates only the finest
   // value of each sweep. A cell above is wrong_image.
   std::map<std::string, double> limits, finest_limits;
-  double parity = 0;  // largest difference between backends in interior pixels; 0: not compared
+  double parity = 0;       // largest difference between backends in interior pixels; 0: not compared
+  bool attribute = false;  // re-run cells with one parameter made ideal at a time: Results::attribution
+  bool pairs = false;      // compare the methods' finest pictures with each other: Results::pairs
+  bool effects = false;    // each cell also with the scene's effects off, alone and left out: Results::effects
   // Scenes with fields so smooth that the methods' expected order of convergence must show.
   std::vector<std::string> expect_order_on;
 };

@@ -17,6 +17,12 @@ namespace volumark {
 // What a method says of its own work, exact and repeatable: slices, polygons, vertices, samples, bytes ...
 using Counters = std::map<std::string, int64_t>;
 
+// A case of the stability suite (`volumark verify`) that a method cannot take, and why. It is printed, never silent:
+// all other cases apply.
+struct CaseExemption {
+  std::string id, reason;
+};
+
 struct MethodInfo {
   std::string name;   // snake_case
   std::string title;  // one line
@@ -25,6 +31,7 @@ struct MethodInfo {
   std::vector<std::string> effects;  // that it can simulate
   // Expected order of convergence along the quality axis on smooth fields with the given values; 0 = not stated.
   double (*expected_order)(const Values&) = nullptr;
+  std::vector<CaseExemption> exempt = {};  // from hard cases
 };
 
 // A method made ready for one scene, one set of values and one Device. Dies before the Device.

@@ -30,7 +30,7 @@ std::optional<std::string> unsupported_reason(const Method& method, const Scene&
   const MethodInfo& info = method.info();
   for (const std::string& effect : effect_names(scene.effects)) {
     if (std::find(info.effects.begin(), info.effects.end(), effect) == info.effects.end()) {
-      return fmt::format("{} does not simulate the effect {}", info.name, effect);
+      return fmt::format("effect {}: {} does not simulate it", effect, info.name);
     }
   }
   return method.unsupported(scene, values, backend);

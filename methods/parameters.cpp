@@ -59,13 +59,22 @@ void check_choice(const ParameterInfo& info, const std::string& value) {
                                    did_you_mean(value, info.choices), fmt::join(info.choices, ", ")));
 }
 
+template <class T>
+void set_ideal(ParameterInfo& info, const std::optional<Ideal<T>>& ideal) {
+  if (!ideal) return;
+  info.ideal = ideal->value;
+  info.aspect = ideal->aspect;
+}
+
 // A double that is a whole number in the range of int64_t: 2^63 itself is not.
 bool is_whole(double value) { return value == std::floor(value) && value >= -0x1p63 && value < 0x1p63; }
 
 }  // namespace
 
 Number::Number(Spec spec)
-    : info_{spec.name, spec.unit, spec.doc, spec.def, spec.lo, spec.hi, {}, !spec.sweep.empty(), spec.sweep} {}
+    : info_{spec.name, spec.unit, spec.doc, spec.def, spec.lo, spec.hi, {}, !spec.sweep.empty(), spec.sweep, {}, {}} {
+  set_ideal(info_, spec.ideal);
+}
 double Number::operator()(const Values& values) const { return value_of<double>(values, info_); }
 
 Integer::Integer(Spec spec)
@@ -77,14 +86,26 @@ Integer::Integer(Spec spec)
             static_cast<double>(spec.hi),
             {},
             !spec.sweep.empty(),
-            spec.sweep} {}
+            spec.sweep,
+            {},
+            {}} {
+  set_ideal(info_, spec.ideal);
+}
 int64_t Integer::operator()(const Values& values) const { return value_of<int64_t>(values, info_); }
 
-Flag::Flag(const char* name, const char* doc, bool def) : info_{name, "", doc, def, 0, 0, {}, false, {}} {}
+Flag::Flag(const char* name, const char* doc, bool def, std::optional<Ideal<bool>> ideal)
+    : info_{name, "", doc, def, 0, 0, {}, false, {}, {}, {}} {
+  set_ideal(info_, ideal);
+}
 bool Flag::operator()(const Values& values) const { return value_of<bool>(values, info_); }
 
-Choice::Choice(const char* name, const char* doc, std::vector<std::string> choices, const char* def)
-    : info_{name, "", doc, std::string(def), 0, 0, std::move(choices), false, {}} {}
+Choice::Choice(const char* name, const char* doc, std::vector<std::string> choices, const char* def,
+               std::optional<Ideal<const char*>> ideal)
+    : info_{name, "", doc, std::string(def), 0, 0, std::move(choices), false, {}, {}, {}} {
+  if (!ideal) return;
+  info_.ideal = std::string(ideal->value);
+  info_.aspect = ideal->aspect;
+}
 const std::string& Choice::operator()(const Values& values) const { return value_of<std::string>(values, info_); }
 size_t Choice::index(const Values& values) const {
   const std::string& value = (*this)(values);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -31,6 +32,17 @@ struct ParameterInfo {
   std::vector<std::string> choices;  // strings: the allowed values
   bool quality_axis = false;         // what buys accuracy with time; at most one a method
   std::vector<double> sweep;         // quality axis: values from coarse to fine
+  // Where an error comes from: the value at which this parameter adds none that matters, and what it stands for
+  // ("step", "target format", "volume texture", ...). None: the parameter does not bear on the error.
+  std::optional<Value> ideal;
+  std::string aspect;
+};
+
+// What error attribution makes of a parameter (ParameterInfo::ideal and aspect).
+template <class T>
+struct Ideal {
+  T value;
+  const char* aspect;
 };
 
 class Number {
@@ -41,6 +53,7 @@ class Number {
     const char* doc;
     double def, lo, hi;
     std::vector<double> sweep = {};  // not empty: this is the quality axis
+    std::optional<Ideal<double>> ideal = {};
   };
   explicit Number(Spec spec);
   double operator()(const Values& values) const;
@@ -58,6 +71,7 @@ class Integer {
     const char* doc;
     int64_t def, lo, hi;
     std::vector<double> sweep = {};
+    std::optional<Ideal<int64_t>> ideal = {};
   };
   explicit Integer(Spec spec);
   int64_t operator()(const Values& values) const;
@@ -69,7 +83,7 @@ class Integer {
 
 class Flag {
  public:
-  Flag(const char* name, const char* doc, bool def);
+  Flag(const char* name, const char* doc, bool def, std::optional<Ideal<bool>> ideal = {});
   bool operator()(const Values& values) const;
   const ParameterInfo& info() const { return info_; }
 
@@ -79,7 +93,8 @@ class Flag {
 
 class Choice {
  public:
-  Choice(const char* name, const char* doc, std::vector<std::string> choices, const char* def);
+  Choice(const char* name, const char* doc, std::vector<std::string> choices, const char* def,
+         std::optional<Ideal<const char*>> ideal = {});
   const std::string& operator()(const Values& values) const;
   size_t index(const Values& values) const;  // position in `choices`
   const ParameterInfo& info() const { return info_; }

@@ -39,6 +39,10 @@ class Writer {
   void field(const char* key, std::optional<T>& value) {
     if (value) json[key] = convert(*value);
   }
+  template <class T>
+  void later(const char* key, T& value) {
+    field(key, value);
+  }
 
  private:
   static Json convert(std::string& value) { return value; }
@@ -111,6 +115,10 @@ class Reader {
     if (found == json_.end())
       throw ResultsError((pointer_.empty() ? "/" : pointer_) + ": key '" + key + "' is missing");
     read(*found, where, value);
+  }
+  template <class T>
+  void later(const char* key, T& value) {
+    if (json_.contains(key)) field(key, value);
   }
   template <class T>
   void field(const char* key, std::optional<T>& value) {

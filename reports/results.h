@@ -21,7 +21,7 @@ namespace volumark {
 
 inline constexpr const char* kResultsSchemaName = "volumark-results";
 inline constexpr int kResultsSchemaMajor = 1;
-inline constexpr const char* kResultsSchemaVersion = "1.0.0";
+inline constexpr const char* kResultsSchemaVersion = "1.1.0";
 
 // A file that cannot be read, written or understood: message with the path and, inside it, the JSON pointer.
 class ResultsError : public std::runtime_error {
@@ -66,6 +66,9 @@ struct BackendResultInfo {
   bool software = true;  // never ranked against hardware
   std::map<std::string, std::string> env;
   std::vector<std::string> capabilities, workarounds;
+  // Texture format -> distinct values met between two neighbouring texels 0 and 1 under linear filtering, of the 4096
+  // places that were asked for. About 256: the driver filters with 8 bits, and that is an error of 1/255 of its own.
+  std::map<std::string, double> filter_levels;
 };
 
 struct SceneResultInfo {
@@ -106,6 +109,8 @@ const char* to_string(Outcome outcome);  // ok, unsupported, failed, timeout, wr
 struct CellKey {
   std::string experiment, scene, method, backend;
   Params params;  // every parameter of the method; with the others it alone identifies a series
+  // Effects switched against the scene's own list: "" = as the scene says, "none", "only lighting", "without lighting".
+  std::string variant;
   friend bool operator==(const CellKey&, const CellKey&) = default;
 };
 
@@ -198,7 +203,8 @@ struct ViewResult {
   std::map<std::string, int64_t> counters;     // exact
   std::optional<ReferenceInfo> reference;
   std::optional<ErrorMetrics> error;
-  bool at_bound = false;  // the largest error is below the reference's bound: no ranking below it
+  bool at_bound = false;       // the largest error is below the reference's bound: no ranking below it
+  bool shows_nothing = false;  // the reference shows the background alone: the errors praise nothing
   // Kept where the experiment keeps images.
   std::optional<ImageFile> rendered, reference_image, difference, flip;
 };
@@ -217,12 +223,21 @@ struct PaperCell {
   double published = 0;
 };
 
+// One stage of a program as it runs: specialised, then optimised.
+struct ProgramCost {
+  std::string program, stage;  // label; vertex, fragment, geometry, compute
+  int64_t instructions = 0;    // SPIR-V instructions in function bodies; the same for every backend that runs GLSL
+};
+
 struct Result {
   CellKey key;
   std::string case_version;  // hash of scene, parameters, views, size and reference: an edited case is a new series
   Outcome outcome = Outcome::Failed;
-  std::string reason;  // of every outcome but ok
-  std::vector<std::string> effects;
+  std::string reason;                        // of every outcome but ok
+  std::vector<std::string> effects;          // that were simulated
+  std::vector<std::string> ignored_effects;  // that the scene calls for and --ignore-effects left out: the picture
+                                             // lacks them
+  std::vector<ProgramCost> programs;
   int64_t width = 0, height = 0;
   std::optional<Quality> quality;
   std::optional<Metrics> metrics;  // absent where nothing was drawn
@@ -243,8 +258,9 @@ struct Convergence {
   std::vector<double> values, errors;  // coarse to fine
   int64_t fitted_points = 0;           // 0: no fit possible
   double fitted = 0, fitted_lo = 0, fitted_hi = 0, expected = 0;
-  double floor = 0;     // smallest error reached; 0: still falling
-  std::string verdict;  // "pass", "fail", "not stated" or "not resolved", with the reason after it in `reason`
+  double floor = 0;          // smallest error reached; 0: still falling
+  std::string floor_reason;  // what holds the error there, from the attribution; empty: not known, or no floor
+  std::string verdict;       // "pass", "fail", "not stated" or "not resolved", with the reason after it in `reason`
   std::string reason;
 };
 
@@ -260,6 +276,86 @@ struct ParityRow {
   double silhouette_max = 0;
   double limit = 0;
   bool ok = false;
+};
+
+// ---- Where the error comes from ----
+// One parameter made ideal (ParameterInfo::ideal), all others as in the cell.
+struct AttributionPart {
+  std::string aspect;  // "target format", "volume texture", "step", ...
+  std::string parameter;
+  ParamValue from, to;
+  double error = 0;    // RMSE, worst view, with this one made ideal
+  double worth = 0;    // error^2 that it takes away, as a share of the cell's error^2; below 0: the error grew (two
+                       // errors had cancelled)
+  double seconds = 0;  // frame time with it made ideal: what the gain costs; 0: not measured
+  std::string note;    // named causes: "gl filters R8 textures with 8 bits"
+};
+struct Attribution {
+  CellKey key;           // of the cell that is explained
+  double error = 0;      // RMSE, worst view
+  double seconds = 0;    // its frame time
+  double all_ideal = 0;  // RMSE with every part made ideal at once: what is left is the method's own, or the bound
+  double bound = 0;      // of the reference
+  std::vector<AttributionPart> parts;  // largest worth first
+  std::string command;
+};
+
+// ---- Method against method ----
+// Two cells of one scene and backend, each method at the finest value of its sweep, picture against picture.
+struct PairRow {
+  CellKey a, b;
+  int64_t view = 0;                        // where rmse is largest
+  double rmse = 0, max = 0, flip_p99 = 0;  // between the two pictures, worst view
+  double noise_a = 0, noise_b = 0;         // largest difference of a second drawing of the same frame
+  double bound = 0;                        // of the reference
+  // "indistinguishable", "a" or "b" (closer to the reference; faster): decided only where the intervals part.
+  std::string error_verdict, time_verdict;
+  std::string reason;
+};
+
+// ---- What an effect costs ----
+struct EffectRow {
+  CellKey key;  // variant empty
+  std::string effect;
+  std::string mode;               // "single": it alone against none; "leave_one_out": all against all but it
+  Stats with, without;            // frame wall time, seconds
+  double rmse = 0, flip_p99 = 0;  // between the two pictures, worst view
+  int64_t instructions_with = 0, instructions_without = 0;  // of all stages
+  bool time_differs = false;                                // the two intervals of the median do not touch
+};
+
+// ---- Stability ----
+struct HardCaseRow {
+  std::string id;            // of the case, snake_case
+  std::string number;        // in the list of hard cases: "1", "23b"
+  std::string title, check;  // what this row measured
+  std::string method, backend;
+  double expected = 0, measured = 0;
+  double deviation = 0, bound = 0;  // holds where deviation <= bound
+  std::string outcome;              // pass, fail, error, not_applicable
+  std::string reason;               // of every outcome but pass
+  std::string source;               // where expected value and bound come from
+  int64_t x = -1, y = -1;           // worst pixel
+  std::optional<ImageFile> picture, difference;
+  double seconds = 0;
+  std::string command;
+};
+
+// Change of the picture for a small motion of the camera (hard case 24).
+struct Spike {
+  int64_t view = 0, x = 0, y = 0;
+  double change = 0;  // of the largest channel, per motion of the scene's size
+};
+struct SensitivityRow {
+  CellKey key;
+  int64_t directions = 0;
+  double motion = 0;                    // of the camera, in sizes of the scene
+  double median = 0, p99 = 0, max = 0;  // change per motion, over pixels that change
+  double limit = 0;                     // above it a pixel is a spike
+  std::vector<Spike> spikes;            // the worst first, at most 32
+  int64_t spike_count = 0;
+  bool ok = false;
+  std::string reason;
 };
 
 struct Claim {
@@ -281,6 +377,11 @@ struct Results {
   std::vector<Convergence> convergence;
   std::vector<ParityRow> parity;
   std::vector<Claim> claims;
+  std::vector<Attribution> attribution;
+  std::vector<PairRow> pairs;
+  std::vector<EffectRow> effects;
+  std::vector<HardCaseRow> hard_cases;
+  std::vector<SensitivityRow> sensitivity;
   std::vector<SelfTestRow> self_test;
 };
 

@@ -1,5 +1,7 @@
 // Which JSON key each member of the results' structs has: one list that writing and reading share. `A` is a Writer or a
 // Reader (results.cpp) with `field(key, member)`. A std::optional member may be absent; all others are required.
+// `later(key, member)` is for members that came after version 1.0: where an older file lacks them, they keep their
+// default.
 #pragma once
 
 #include "reports/results.h"
@@ -61,6 +63,7 @@ void fields(A& a, BackendResultInfo& v) {
   a.field("env", v.env);
   a.field("capabilities", v.capabilities);
   a.field("workarounds", v.workarounds);
+  a.later("filter_levels", v.filter_levels);
 }
 
 template <class A>
@@ -120,6 +123,7 @@ void fields(A& a, CellKey& v) {
   a.field("method", v.method);
   a.field("backend", v.backend);
   a.field("params", v.params);
+  a.later("variant", v.variant);
 }
 
 template <class A>
@@ -246,6 +250,7 @@ void fields(A& a, ViewResult& v) {
   a.field("reference", v.reference);
   a.field("error", v.error);
   a.field("at_bound", v.at_bound);
+  a.later("shows_nothing", v.shows_nothing);
   a.field("rendered", v.rendered);
   a.field("reference_image", v.reference_image);
   a.field("difference", v.difference);
@@ -275,12 +280,21 @@ void fields(A& a, PaperCell& v) {
 }
 
 template <class A>
+void fields(A& a, ProgramCost& v) {
+  a.field("program", v.program);
+  a.field("stage", v.stage);
+  a.field("instructions", v.instructions);
+}
+
+template <class A>
 void fields(A& a, Result& v) {
   a.field("key", v.key);
   a.field("case_version", v.case_version);
   a.field("outcome", v.outcome);
   a.field("reason", v.reason);
   a.field("effects", v.effects);
+  a.later("ignored_effects", v.ignored_effects);
+  a.later("programs", v.programs);
   a.field("width", v.width);
   a.field("height", v.height);
   a.field("quality", v.quality);
@@ -305,6 +319,7 @@ void fields(A& a, Convergence& v) {
   a.field("fitted_hi", v.fitted_hi);
   a.field("expected", v.expected);
   a.field("floor", v.floor);
+  a.later("floor_reason", v.floor_reason);
   a.field("verdict", v.verdict);
   a.field("reason", v.reason);
 }
@@ -336,6 +351,105 @@ void fields(A& a, Claim& v) {
 }
 
 template <class A>
+void fields(A& a, AttributionPart& v) {
+  a.field("aspect", v.aspect);
+  a.field("parameter", v.parameter);
+  a.field("from", v.from);
+  a.field("to", v.to);
+  a.field("error", v.error);
+  a.field("worth", v.worth);
+  a.field("seconds", v.seconds);
+  a.field("note", v.note);
+}
+
+template <class A>
+void fields(A& a, Attribution& v) {
+  a.field("key", v.key);
+  a.field("error", v.error);
+  a.field("seconds", v.seconds);
+  a.field("all_ideal", v.all_ideal);
+  a.field("bound", v.bound);
+  a.field("parts", v.parts);
+  a.field("command", v.command);
+}
+
+template <class A>
+void fields(A& a, PairRow& v) {
+  a.field("a", v.a);
+  a.field("b", v.b);
+  a.field("view", v.view);
+  a.field("rmse", v.rmse);
+  a.field("max", v.max);
+  a.field("flip_p99", v.flip_p99);
+  a.field("noise_a", v.noise_a);
+  a.field("noise_b", v.noise_b);
+  a.field("bound", v.bound);
+  a.field("error_verdict", v.error_verdict);
+  a.field("time_verdict", v.time_verdict);
+  a.field("reason", v.reason);
+}
+
+template <class A>
+void fields(A& a, EffectRow& v) {
+  a.field("key", v.key);
+  a.field("effect", v.effect);
+  a.field("mode", v.mode);
+  a.field("with", v.with);
+  a.field("without", v.without);
+  a.field("rmse", v.rmse);
+  a.field("flip_p99", v.flip_p99);
+  a.field("instructions_with", v.instructions_with);
+  a.field("instructions_without", v.instructions_without);
+  a.field("time_differs", v.time_differs);
+}
+
+template <class A>
+void fields(A& a, HardCaseRow& v) {
+  a.field("id", v.id);
+  a.field("number", v.number);
+  a.field("title", v.title);
+  a.field("check", v.check);
+  a.field("method", v.method);
+  a.field("backend", v.backend);
+  a.field("expected", v.expected);
+  a.field("measured", v.measured);
+  a.field("deviation", v.deviation);
+  a.field("bound", v.bound);
+  a.field("outcome", v.outcome);
+  a.field("reason", v.reason);
+  a.field("source", v.source);
+  a.field("x", v.x);
+  a.field("y", v.y);
+  a.field("picture", v.picture);
+  a.field("difference", v.difference);
+  a.field("seconds", v.seconds);
+  a.field("command", v.command);
+}
+
+template <class A>
+void fields(A& a, Spike& v) {
+  a.field("view", v.view);
+  a.field("x", v.x);
+  a.field("y", v.y);
+  a.field("change", v.change);
+}
+
+template <class A>
+void fields(A& a, SensitivityRow& v) {
+  a.field("key", v.key);
+  a.field("directions", v.directions);
+  a.field("motion", v.motion);
+  a.field("median", v.median);
+  a.field("p99", v.p99);
+  a.field("max", v.max);
+  a.field("limit", v.limit);
+  a.field("spikes", v.spikes);
+  a.field("spike_count", v.spike_count);
+  a.field("ok", v.ok);
+  a.field("reason", v.reason);
+}
+
+template <class A>
 void fields(A& a, Results& v) {
   a.field("run", v.run);
   a.field("git", v.git);
@@ -349,6 +463,11 @@ void fields(A& a, Results& v) {
   a.field("convergence", v.convergence);
   a.field("parity", v.parity);
   a.field("claims", v.claims);
+  a.later("attribution", v.attribution);
+  a.later("pairs", v.pairs);
+  a.later("effects", v.effects);
+  a.later("hard_cases", v.hard_cases);
+  a.later("sensitivity", v.sensitivity);
   a.field("self_test", v.self_test);
 }
 

@@ -27,7 +27,8 @@ struct Refused {
   std::string message;
 };
 
-std::string join(std::initializer_list<const char*> names) {
+template <class Names>
+std::string join(const Names& names) {
   std::string text;
   for (const char* name : names) text += (text.empty() ? "" : ", ") + std::string(name);
   return text;
@@ -149,7 +150,10 @@ std::vector<JsonNode> JsonNode::array(size_t least, size_t most) const {
   return nodes;
 }
 
-JsonObject::JsonObject(const JsonNode& node, std::initializer_list<const char*> keys) : node_(node) {
+JsonObject::JsonObject(const JsonNode& node, std::initializer_list<const char*> keys)
+    : JsonObject(node, std::span<const char* const>(keys.begin(), keys.size())) {}
+
+JsonObject::JsonObject(const JsonNode& node, std::span<const char* const> keys) : node_(node) {
   if (!node.value_->is_object())
     node.fail(fmt::format("expected an object with {}, found {}", join(keys), node.found()));
   for (const auto& [key, value] : node.value_->items()) {

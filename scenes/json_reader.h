@@ -7,6 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,6 +52,7 @@ class JsonNode {
 class JsonObject {
  public:
   JsonObject(const JsonNode& node, std::initializer_list<const char*> keys);
+  JsonObject(const JsonNode& node, std::span<const char* const> keys);
   bool has(const char* key) const { return node_.value_->contains(key); }
   JsonNode at(const char* key) const;  // must be there
   std::optional<JsonNode> find(const char* key) const;

@@ -59,12 +59,22 @@ ClipPlane parse_clip_plane(const JsonNode& node, size_t index, ScenePlan& plan) 
 }  // namespace
 
 void parse_effects(const JsonNode& node, Scene& scene, ScenePlan& plan) {
-  const JsonObject object(node, {"lighting", "clip_planes"});
+  // Of effects that nothing simulates yet only the name is kept: their parameters come with the technique.
+  std::vector<const char*> names;
+  for (const EffectInfo& effect : effect_list()) names.push_back(effect.name);
+  const JsonObject object(node, names);
   if (const auto lighting = object.find("lighting")) scene.effects.lighting = parse_lighting(*lighting, plan);
   if (const auto planes = object.find("clip_planes")) {
     for (const JsonNode& plane : planes->array(1, 64)) {
       scene.effects.clip_planes.push_back(parse_clip_plane(plane, scene.effects.clip_planes.size(), plan));
     }
+  }
+  if (const auto fixed_point = object.find("fixed_point")) scene.effects.fixed_point = fixed_point->boolean();
+  for (const char* name : names) {
+    const std::string_view known(name);
+    if (known == "lighting" || known == "clip_planes" || known == "fixed_point" || !object.has(name)) continue;
+    if (!object.at(name).json().is_object()) object.at(name).fail("expected an object");
+    scene.effects.others.emplace_back(name);
   }
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/effects.h"
 #include "scenes/volume.h"
 
 namespace volumark {
@@ -60,12 +61,13 @@ struct ClipPlane {
   double distance = 0;         // keeps normal . p >= distance
 };
 
+// What a scene calls for beyond emission and absorption. The vocabulary, and what each name means: scenes/effects.h.
 struct Effects {
   std::optional<Lighting> lighting;
   std::vector<ClipPlane> clip_planes;  // empty: not simulated
+  bool fixed_point = false;            // arithmetic of the boards of 2000, as scenes/effects.h defines it
+  std::vector<std::string> others;     // names of the vocabulary that no technique here simulates yet, in its order
 };
-// The names of those that are called for: "lighting", "clip_planes".
-std::vector<std::string> effect_names(const Effects& effects);
 
 struct View {
   glm::dvec3 eye{0, 0, 1}, target{0}, up{0, 1, 0};

@@ -26,17 +26,24 @@ const Number kStep{{"step",
                     0.5,
                     1.0 / 64,
                     64,
-                    {4, 2, 1, 0.5, 0.25, 0.125}}};
+                    {4, 2, 1, 0.5, 0.25, 0.125},
+                    Ideal<double>{0.125, "step"}}};
 const Choice kRayClassification{
     "classification",
     "post: transfer function at the middle of each segment; preintegrated: of the linear run of values between its two "
     "ends, with self-attenuation (a shorter last segment: opacity exact, colour to second order)",
     {"post", "preintegrated"},
-    "post"};
-const Number kEarlyTermination{{"early_termination", "",
+    "post",
+    Ideal<const char*>{"post", "classification"}};
+const Number kEarlyTermination{{"early_termination",
+                                "",
                                 "a ray ends where less than this part of what lies behind can still be seen; 0 = off. "
                                 "Errs by at most this times the brightest emission colour",
-                                1.0 / 4096, 0, 0.5}};
+                                1.0 / 4096,
+                                0,
+                                0.5,
+                                {},
+                                Ideal<double>{0, "early termination"}}};
 const Choice kSkipEmpty{"skip_empty",
                         "bricks: jump over bricks of voxels whose range of values is transparent; the picture is the "
                         "same",

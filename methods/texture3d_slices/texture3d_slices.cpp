@@ -19,7 +19,8 @@ const Number& step() {
                                  1,
                                  1. / 64,
                                  64,
-                                 {8, 4, 2, 1, .5, .25}}};
+                                 {8, 4, 2, 1, .5, .25},
+                                 Ideal<double>{.125, "step"}}};
   return parameter;
 }
 const Choice& order() {
@@ -34,7 +35,8 @@ const Choice& end_slabs() {
       "end_slabs",
       "clipped: each sample stands for the part of its slab inside the volume; full: for the whole slab (plain slices)",
       {"clipped", "full"},
-      "clipped"};
+      "clipped",
+      Ideal<const char*>{"clipped", "end slabs"}};
   return parameter;
 }
 }  // namespace parameters

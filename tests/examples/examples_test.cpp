@@ -66,7 +66,7 @@ TEST_F(Examples, AlongTheRampTheNearestSampleToItsEndIsTheLargest) {
 TEST_F(Examples, WhatTheMethodCannotSimulateIsUnsupportedWithAReason) {
   scene.effects.lighting.emplace().lights.emplace_back();
   EXPECT_EQ(unsupported_reason(toy_mip(), scene, values("8"), device.info()),
-            "toy_mip does not simulate the effect lighting");
+            "effect lighting: toy_mip does not simulate it");
 }
 
 TEST_F(Examples, TheBackendCountsOneDrawAndOneUniformBlockAFrame) {
