@@ -18,19 +18,41 @@ double error_value(const ErrorMetrics& errors, const std::string& metric) {
   throw ResultsError("unknown error metric '" + metric + "'");
 }
 
+bool shows_nothing(const Result& result) {
+  return std::any_of(result.views.begin(), result.views.end(),
+                     [](const ViewResult& view) { return view.shows_nothing; });
+}
+
+namespace {
+
+bool is_ranked(const Result& result) {
+  const bool drawn = result.outcome == Outcome::Ok || result.outcome == Outcome::WrongImage;
+  return drawn && result.metrics && result.error && result.key.variant.empty() && result.ignored_effects.empty() &&
+         !shows_nothing(result);
+}
+
+}  // namespace
+
 std::optional<CostPoint> cost_point(const Results& results, size_t index, const std::string& error_metric,
                                     bool cpu_time) {
   const Result& result = results.results[index];
-  if (result.outcome != Outcome::Ok && result.outcome != Outcome::WrongImage) return std::nullopt;
-  if (!result.metrics || !result.error) return std::nullopt;
+  if (!is_ranked(result)) return std::nullopt;
   const Stats& stats = cpu_time ? result.metrics->frame_cpu.stats : result.metrics->frame_wall.stats;
   const double error = error_value(result.error->worst, error_metric);
   if (stats.count == 0 || !(stats.median > 0) || !std::isfinite(error)) return std::nullopt;
-  double bound = 0;  // RMSE and the like cannot be told apart below the largest pixel bound
-  for (const ViewResult& view : result.views)
-    if (view.reference) bound = std::max(bound, view.reference->bound);
+  // RMSE and the like cannot be told apart below the largest pixel bound.
   const bool on_pixels = error_metric == "rmse" || error_metric == "max" || error_metric == "mae";
-  return CostPoint{stats.median, stats.median_lo, stats.median_hi, on_pixels ? std::max(error, bound) : error, index};
+  double largest_bound = 0, lo = error, hi = error;
+  for (const ViewResult& view : result.views) {
+    const double bound = on_pixels && view.reference ? view.reference->bound : 0;
+    largest_bound = std::max(largest_bound, bound);
+    const double of_view = view.error ? error_value(*view.error, error_metric) : error;
+    if (!std::isfinite(of_view)) continue;
+    lo = std::min(lo, std::max(0.0, of_view - bound));
+    hi = std::max(hi, of_view + bound);
+  }
+  const double counted = std::max(error, largest_bound);
+  return CostPoint{stats.median, stats.median_lo, stats.median_hi, counted, lo, std::max(hi, counted), index};
 }
 
 std::vector<size_t> pareto_front(std::span<const CostPoint> points) {
@@ -47,23 +69,55 @@ std::vector<size_t> pareto_front(std::span<const CostPoint> points) {
   return front;
 }
 
+std::vector<Front> fronts(const Results& results, const std::string& experiment, const std::string& scene,
+                          const std::string& error_metric) {
+  std::vector<Front> out;
+  const auto of = [&](const std::string& method, const std::string& backend, bool software) -> Front& {
+    for (Front& front : out)
+      if (front.method == method && front.backend == backend && front.software == software) return front;
+    return out.emplace_back(Front{method, backend, software, {}});
+  };
+  for (const int kind : {0, 1, 2, 3})
+    for (size_t i = 0; i < results.results.size(); ++i) {
+      const CellKey& key = results.results[i].key;
+      if (key.experiment != experiment || key.scene != scene) continue;
+      const auto point = cost_point(results, i, error_metric);
+      if (!point) continue;
+      const bool hardware =
+          std::any_of(results.backends.begin(), results.backends.end(),
+                      [&](const BackendResultInfo& info) { return info.id == key.backend && !info.software; });
+      of(kind == 0 || kind == 1 ? key.method : "", kind == 0 || kind == 2 ? key.backend : "", !hardware)
+          .points.push_back(*point);
+    }
+  for (Front& front : out) {
+    std::vector<CostPoint> kept;
+    for (const size_t i : pareto_front(front.points)) kept.push_back(front.points[i]);
+    front.points = std::move(kept);
+  }
+  return out;
+}
+
 TimeToError time_to_error(std::span<const CostPoint> points, double target) {
   TimeToError out;
   out.best_error = std::numeric_limits<double>::infinity();
   const std::vector<size_t> front = pareto_front(points);
   if (front.empty()) return out;
-  out.best_error = points[front.back()].error;
-  out.best_seconds = points[front.back()].time;
+  const CostPoint& best = points[front.back()];
+  out.best_error = best.error;
+  out.best_seconds = best.time;
+  out.best = best.result;
   const auto reached = std::find_if(front.begin(), front.end(), [&](size_t i) { return points[i].error <= target; });
   if (reached == front.end()) return out;
   const CostPoint& fine = points[*reached];
   out.seconds = fine.time;
+  out.coarse = out.fine = fine.result;
   if (reached == front.begin() || fine.error == target) return out;
   const CostPoint& coarse = points[*(reached - 1)];
   if (!(fine.error > 0) || !(target > 0)) return out;  // no logarithm: the measured cell stands
   const double along = std::log(coarse.error / target) / std::log(coarse.error / fine.error);
   out.seconds = std::exp(std::log(coarse.time) + along * std::log(fine.time / coarse.time));
   out.interpolated = true;
+  out.coarse = coarse.result;
   return out;
 }
 
