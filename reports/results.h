@@ -41,7 +41,9 @@ struct RunInfo {
   std::string order;  // how cells and repetitions were ordered, in words
   int64_t seed = 0;   // of everything random in the run
   bool interrupted = false;
-  int64_t resumed = 0;  // how often --resume went on with it
+  int64_t resumed = 0;                        // how often --resume went on with it
+  std::vector<std::string> sweeps;            // --sweep, each as name=value,value,...
+  std::map<std::string, std::string> device;  // options that decide where cells are drawn: threads, gl_platform, ...
 };
 
 struct GitInfo {
@@ -119,10 +121,14 @@ struct Quality {
   double value = 0;
 };
 
+// Of samples of several views: `median` is the mean over the views of each view's median (a median of the pooled
+// samples would be that of some view in the middle, and jump when another one takes its place), and
+// median_lo..median_hi the 95 % percentile bootstrap of that same figure, samples drawn anew within each view. Of one
+// view: its plain median. All others are of the pooled samples. (Files of version 1.0 hold the pooled median.)
 struct Stats {
   int64_t count = 0;
   double median = 0, p5 = 0, p95 = 0, mean = 0, min = 0, max = 0;
-  double median_lo = 0, median_hi = 0;  // bootstrap interval of the median, 95 %
+  double median_lo = 0, median_hi = 0;
 };
 
 struct Metric {
@@ -140,7 +146,8 @@ struct PrepareCost {
 
 struct PeakBytes {
   int64_t device = 0;   // largest sum of buffers and textures alive on the Device
-  int64_t process = 0;  // peak resident set of the process so far
+  int64_t process = 0;  // peak resident set of the process while the cell was made ready and drawn for the first time,
+                        // less what other open cells of its group held; where the system cannot reset the mark: so far
   int64_t voxels = 0;   // bytes of the scene's voxels, for comparison
   int64_t target = 0;   // bytes of the colour target
 };
@@ -233,7 +240,7 @@ struct Result {
   CellKey key;
   std::string case_version;  // hash of scene, parameters, views, size and reference: an edited case is a new series
   Outcome outcome = Outcome::Failed;
-  std::string reason;                        // of every outcome but ok
+  std::string reason;                        // of every outcome but ok; of an ok without an error
   std::vector<std::string> effects;          // that were simulated
   std::vector<std::string> ignored_effects;  // that the scene calls for and --ignore-effects left out: the picture
                                              // lacks them

@@ -18,6 +18,8 @@ void fields(A& a, RunInfo& v) {
   a.field("seed", v.seed);
   a.field("interrupted", v.interrupted);
   a.field("resumed", v.resumed);
+  a.later("sweeps", v.sweeps);
+  a.later("device", v.device);
 }
 
 template <class A>
