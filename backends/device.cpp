@@ -70,7 +70,14 @@ struct Device::State {
   std::optional<PassDesc> pass;
   int open_zones = 0;
   size_t live = 0, peak = 0;
+  std::vector<ProgramRecord> records;
 
+  void record(const ProgramDesc& desc) {
+    const auto same = [&](const ProgramRecord& known) {
+      return known.label == desc.label && known.stages == desc.stages && known.constants == desc.constants;
+    };
+    if (std::ranges::none_of(records, same)) records.push_back({desc.label, desc.stages, desc.constants});
+  }
   void count(size_t bytes) {
     live += bytes;
     peak = std::max(peak, live);
@@ -115,6 +122,7 @@ const BackendInfo& Device::info() const { return state_->backend->info(); }
 bool Device::has(Capability capability) const { return state_->has(capability); }
 size_t Device::live_bytes() const { return state_->live; }
 size_t Device::peak_bytes() const { return state_->peak; }
+std::span<const ProgramRecord> Device::programs() const { return state_->records; }
 
 // ---- Objects --------------------------------------------------------------------------------------------------------
 
@@ -201,7 +209,10 @@ Program Device::create_program(const ProgramDesc& desc) {
   const Call call{"create_program", desc.label};
   state_->check_program(call, desc);
   const bool compute = desc.stages.front()->stage == Stage::Compute;
-  return state_->programs.insert({desc, compute}, [&](uint32_t id) { state_->backend->create_program(id, desc); });
+  return state_->programs.insert({desc, compute}, [&](uint32_t id) {
+    state_->backend->create_program(id, desc);
+    state_->record(desc);
+  });
 }
 
 void Device::State::check_pipeline(const Call& call, const PipelineDesc& desc, const ProgramDesc& program) const {

@@ -80,6 +80,8 @@ class Device {
   const TextureDesc& desc(Texture texture) const;  // `data` is empty
   size_t live_bytes() const;                       // of all buffers and textures alive, as asked for
   size_t peak_bytes() const;
+  // Every different program that was made here, destroyed ones included, in the order in which they were made.
+  std::span<const ProgramRecord> programs() const;
 
  private:
   struct State;

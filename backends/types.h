@@ -82,6 +82,7 @@ struct BindingDecl {
 struct SpecConstant {
   std::string name;
   int32_t value = 0;
+  friend bool operator==(const SpecConstant&, const SpecConstant&) = default;
 };
 
 struct CpuProgram;  // backends/cpu/cpu_program.h
@@ -92,6 +93,14 @@ struct ProgramDesc {
   std::vector<BindingDecl> bindings;
   std::vector<SpecConstant> constants;
   const CpuProgram* cpu = nullptr;  // the twin; null: the cpu backend refuses the program
+};
+
+// What is known of a program that was made: enough to say what it costs. Stages are those of the description, embedded
+// in the program: they live as long as the process.
+struct ProgramRecord {
+  std::string label;
+  std::vector<const ShaderText*> stages;
+  std::vector<SpecConstant> constants;
 };
 
 // ---- Pipelines ------------------------------------------------------------------------------------------------------
