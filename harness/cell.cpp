@@ -67,40 +67,33 @@ void measure_errors(const SceneContext& context, const Image& image, ViewResult&
   CompareOptions options;
   options.background = context.scene.background;
   view.error = error_metrics(compare_images(image, reference->second.image, options));
+  const RegionMap& regions = context.regions.at(static_cast<int>(view.index));
+  view.error->regions = region_errors(image, reference->second.image, regions, options.background);
+  view.shows_nothing = regions.shows_nothing;
   view.reference = context.reference_infos.at(static_cast<int>(view.index));
   view.at_bound = view.error->max <= view.reference->bound;
 }
 
 void fill_errors(const Group& group, const SceneContext& context, const std::map<int, Image>& images, Result& result) {
-  std::vector<ErrorMetrics> errors;
+  std::vector<ErrorMetrics> errors, telling;  // of all views; of those that show something
   for (ViewResult& view : result.views) {
     const auto image = images.find(static_cast<int>(view.index));
     if (image == images.end()) continue;
     measure_errors(context, image->second, view);
-    if (view.error) errors.push_back(*view.error);
+    if (!view.error) continue;
+    errors.push_back(*view.error);
+    if (!view.shows_nothing) telling.push_back(*view.error);
   }
   if (errors.empty()) return;
-  result.error = over_views(errors);
+  if (telling.empty())
+    result.reason = "every view shows the background alone: equal pictures say nothing of the error";
+  else
+    result.error = over_views(telling);
   std::map<std::string, double> limits = group.experiment->limits;
   if (group.finest)
     for (const auto& [metric, limit] : group.experiment->finest_limits) limits[metric] = limit;
-  if (const auto reason = wrong_image_reason(result.error->worst, limits)) throw Ended{Outcome::WrongImage, *reason};
-}
-
-void draw_and_measure(const Group& group, const Cell& cell, const SceneContext& context, const CellOptions& options,
-                      std::optional<BackendInfo>& backend, std::map<int, Image>& images, Result& result) {
-  check_context(context);
-  Device device = open_device(cell.backend, options);
-  backend = device.info();
-  if (const auto reason = unsupported_reason(*group.method, context.scene, group.values, device.info()))
-    throw Ended{Outcome::Unsupported, *reason};
-  FrameSampler sampler(*group.experiment, context, options.stop);
-  try {
-    sampler.run(*group.method, group.values, device, result, images);
-  } catch (const TimedOut& timeout) {
-    sampler.finish(result);
-    throw Ended{Outcome::Timeout, timeout.reason};
-  }
+  if (const auto reason = wrong_image_reason(over_views(errors).worst, limits))
+    throw Ended{Outcome::WrongImage, *reason};
 }
 
 }  // namespace
@@ -114,42 +107,83 @@ std::string case_version(const Group& group, const SceneContext& context) {
   return sha256_hex(std::string_view(text)).substr(0, 16);
 }
 
-Result run_cell(const Group& group, const Cell& cell, const SceneContext& context, const CellOptions& options,
-                const PictureStore& store, std::optional<BackendInfo>& backend, std::map<int, Image>& images) {
-  Result result;
-  result.key = cell.key;
-  result.case_version = case_version(group, context);
-  result.effects = effect_names(context.scene.effects);
-  result.width = context.width;
-  result.height = context.height;
-  result.quality = group.quality;
-  result.command = cell.command;
+CellRun::CellRun(const Group& group, const Cell& cell, const SceneContext& context, const CellOptions& options)
+    : group_(group), cell_(cell), context_(context), options_(options) {
+  result_.key = cell.key;
+  result_.case_version = case_version(group, context);
+  result_.effects = effect_names(context.scene.effects);
+  result_.width = context.width;
+  result_.height = context.height;
+  result_.quality = group.quality;
+  result_.command = cell.command;
   if (group.method->info().expected_order != nullptr)
-    result.order.expected = group.method->info().expected_order(group.values);
+    result_.order.expected = group.method->info().expected_order(group.values);
+}
+
+CellRun::~CellRun() = default;
+
+void CellRun::end(Outcome outcome, const std::string& reason) {
+  ended_ = true;
+  result_.outcome = outcome;
+  result_.reason = reason;
+}
+
+// Runs `work`; whatever goes wrong in it ends the cell. False: it has ended.
+template <class Work>
+bool CellRun::guarded(Work work) {
+  if (ended_) return false;
   try {
-    draw_and_measure(group, cell, context, options, backend, images, result);
-    result.outcome = Outcome::Ok;
-    fill_errors(group, context, images, result);
+    work();
   } catch (const Ended& ended) {
-    result.outcome = ended.outcome;
-    result.reason = ended.reason;
+    end(ended.outcome, ended.reason);
+  } catch (const TimedOut& timeout) {
+    end(Outcome::Timeout, timeout.reason);
   } catch (const Interrupted&) {
     throw;
   } catch (const std::bad_alloc&) {
-    result.outcome = Outcome::Failed;
-    result.reason = "out of memory";
+    end(Outcome::Failed, "out of memory");
   } catch (const std::exception& error) {
-    result.outcome = Outcome::Failed;
-    result.reason = error.what();
+    end(Outcome::Failed, error.what());
   }
-  for (ViewResult& view : result.views) {
+  return !ended_;
+}
+
+void CellRun::open() {
+  guarded([this] {
+    check_context(context_);
+    device_ = std::make_unique<Device>(open_device(cell_.backend, options_));
+    backend_ = device_->info();
+    if (const auto reason = unsupported_reason(*group_.method, context_.scene, group_.values, device_->info()))
+      throw Ended{Outcome::Unsupported, *reason};
+    sampler_ = std::make_unique<FrameSampler>(*group_.experiment, context_, options_.stop);
+    sampler_->begin(*group_.method, group_.values, *device_, result_, images_);
+  });
+}
+
+bool CellRun::pass() {
+  bool more = false;
+  return guarded([this, &more] { more = sampler_->pass(); }) && more;
+}
+
+Result CellRun::finish(const PictureStore& store) {
+  // A cell that failed half way has no figures; one that ran out of time keeps those that it has.
+  const bool measured = !ended_ || result_.outcome == Outcome::Timeout;
+  if (sampler_ && measured) sampler_->finish(result_);
+  if (result_.metrics) {
+    int64_t& peak = result_.metrics->peak_bytes.process;
+    peak = std::max<int64_t>(0, peak - held_by_others_);
+  }
+  sampler_.reset();
+  device_.reset();
+  if (guarded([this] { fill_errors(group_, context_, images_, result_); })) result_.outcome = Outcome::Ok;
+  for (ViewResult& view : result_.views) {
     const auto index = static_cast<int>(view.index);
-    const auto image = images.find(index);
-    if (image != images.end() && keeps(*group.experiment, context, index))
-      store_pictures(store, cell, context, image->second, view);
+    const auto image = images_.find(index);
+    if (image != images_.end() && keeps(*group_.experiment, context_, index))
+      store_pictures(store, cell_, context_, image->second, view);
   }
-  result.finished_at = utc_now();
-  return result;
+  result_.finished_at = utc_now();
+  return std::move(result_);
 }
 
 std::map<int, Image> draw_cell(const Group& group, const Cell& cell, const SceneContext& context,

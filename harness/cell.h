@@ -4,13 +4,17 @@
 
 #include <atomic>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "harness/picture_store.h"
 #include "harness/plan.h"
 #include "harness/reference_cache.h"
+#include "harness/regions.h"
 
 namespace volumark {
+
+class FrameSampler;
 
 // The user asked to stop: the cell that was being measured is dropped.
 struct Interrupted {};
@@ -24,6 +28,7 @@ struct SceneContext {
   std::vector<int> views;
   std::map<int, Reference> references;  // by view
   std::map<int, ReferenceInfo> reference_infos;
+  std::map<int, RegionMap> regions;
   std::map<int, ImageFile> reference_files;  // of the views whose pictures are kept
 };
 
@@ -33,10 +38,44 @@ struct CellOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-// `backend` receives what the Device says of itself; `images` the picture of each view (for comparison between
-// backends).
-Result run_cell(const Group& group, const Cell& cell, const SceneContext& context, const CellOptions& options,
-                const PictureStore& store, std::optional<BackendInfo>& backend, std::map<int, Image>& images);
+// A cell while it is measured. Passes of several cells can take turns, so that a drift of the machine meets all alike.
+class CellRun {
+ public:
+  // All arguments outlive it.
+  CellRun(const Group& group, const Cell& cell, const SceneContext& context, const CellOptions& options);
+  ~CellRun();
+  CellRun(const CellRun&) = delete;
+
+  // Opens the Device, prepares and draws every view once. Throws Interrupted alone, as pass().
+  void open();
+  // One timed frame of every view; false: enough is known, or the cell has ended.
+  bool pass();
+  // Errors, pictures and the outcome; the Device is closed. Once.
+  Result finish(const PictureStore& store);
+
+  // What the Device says of itself; nothing where none could be opened.
+  const std::optional<BackendInfo>& backend() const { return backend_; }
+  const std::map<int, Image>& images() const { return images_; }  // of each view that was drawn
+  // Of the process's memory, so much was held by other cells when this one was opened: not its own.
+  void held_by_others(int64_t bytes) { held_by_others_ = bytes; }
+
+ private:
+  template <class Work>
+  bool guarded(Work work);
+  void end(Outcome outcome, const std::string& reason);
+
+  const Group& group_;
+  const Cell& cell_;
+  const SceneContext& context_;
+  const CellOptions& options_;
+  std::optional<BackendInfo> backend_;
+  std::map<int, Image> images_;
+  Result result_;
+  std::unique_ptr<Device> device_;
+  std::unique_ptr<FrameSampler> sampler_;  // destroyed before the Device
+  int64_t held_by_others_ = 0;
+  bool ended_ = false;
+};
 
 // The pictures alone, untimed: for a cell that an earlier process measured. Empty where it cannot be drawn.
 std::map<int, Image> draw_cell(const Group& group, const Cell& cell, const SceneContext& context,

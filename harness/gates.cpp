@@ -41,6 +41,23 @@ void worsen(ErrorMetrics& worst, const ErrorMetrics& view) {
     if (std::abs(view.bias[c]) > std::abs(worst.bias[c])) worst.bias[c] = view.bias[c];
 }
 
+// Into `worst` and, over the views that have the region, `mean`.
+void regions_over_views(const std::vector<ErrorMetrics>& views, CellError& out) {
+  out.worst.regions.clear();
+  std::map<std::string, double> count;
+  for (const ErrorMetrics& view : views)
+    for (const auto& [name, error] : view.regions) {
+      RegionError &worst = out.worst.regions[name], &mean = out.mean.regions[name];
+      const double share = 1 / ++count[name];
+      for (const auto member : {&RegionError::rmse, &RegionError::max, &RegionError::mae}) {
+        keep_worst(worst.*member, error.*member);
+        mean.*member += share * (error.*member - mean.*member);
+      }
+      worst.pixels += error.pixels;
+      mean.pixels += error.pixels;
+    }
+}
+
 }  // namespace
 
 ErrorMetrics error_metrics(const Errors& errors) {
@@ -88,6 +105,7 @@ CellError over_views(const std::vector<ErrorMetrics>& views) {
   }
   out.mean.pixels = out.worst.pixels;
   out.mean.non_finite = out.worst.non_finite;
+  regions_over_views(views, out);
   return out;
 }
 

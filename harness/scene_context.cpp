@@ -50,6 +50,7 @@ void make_references(SceneContext& context, const Experiment& experiment, const 
         context.reference_files[index] = store.linear(
             fmt::format("{}/reference-{}x{}-v{}", context.scene.name, context.width, context.height, index),
             reference.image, context.scene.background);
+      context.regions[index] = region_map(context.scene, view, reference, threads);
       context.references[index] = std::move(reference);
     }
   } catch (const ImageError&) {
