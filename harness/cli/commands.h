@@ -40,6 +40,7 @@ void add_report(CLI::App& app, const Globals& globals, Action& action);
 void add_diff(CLI::App& app, const Globals& globals, Action& action);
 void add_validate(CLI::App& app, const Globals& globals, Action& action);
 void add_bench(CLI::App& app, const Globals& globals, Action& action);
+void add_probe(CLI::App& app, const Globals& globals, Action& action);
 
 // "name=value" or UsageError.
 std::pair<std::string, std::string> split_assignment(const std::string& text);

@@ -87,6 +87,7 @@ int parse_and_run(int argc, char** argv) {
   add_diff(app, globals, action);
   add_validate(app, globals, action);
   add_bench(app, globals, action);
+  add_probe(app, globals, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
