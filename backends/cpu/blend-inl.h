@@ -1,5 +1,7 @@
 // Blends shaded fragments into the float planes of a tile, rounding to what the target format can hold after every
-// fragment: the error of 8 and 16 bit targets is part of what is shown. Included by tile_raster.cpp.
+// fragment: the error of 8 and 16 bit targets is part of what is shown. 8-bit targets are blended in integers, bit for
+// bit as Mesa's llvmpipe and lavapipe do (tests/conformance/blend8_test.cpp); other GPUs may round otherwise, which the
+// specifications of OpenGL and Vulkan leave open. Included by tile_raster.cpp.
 #if defined(VOLUMARK_CPU_BLEND_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOLUMARK_CPU_BLEND_INL_H_
 #undef VOLUMARK_CPU_BLEND_INL_H_
@@ -49,7 +51,7 @@ HWY_INLINE Floats round_to_half(Floats v) {
 #endif
 }
 
-// The nearest value that the format holds.
+// The nearest value that the format holds, as the tile's planes hold it: 8 bits as levels, 0 to 255.
 template <Precision precision>
 HWY_INLINE Floats quantise(Floats v) {
   const FloatTag d;
@@ -57,16 +59,47 @@ HWY_INLINE Floats quantise(Floats v) {
     return v;
   } else if constexpr (precision == Precision::Half) {
     return round_to_half(v);
+  } else if constexpr (precision == Precision::Unorm16) {
+    return hn::Div(hn::Round(hn::Mul(clamp_unit(v), hn::Set(d, 65535.0F))), hn::Set(d, 65535.0F));
   } else {
-    const float most = precision == Precision::Unorm8 ? 255.0F : 65535.0F;
-    return hn::Div(hn::Round(hn::Mul(clamp_unit(v), hn::Set(d, most))), hn::Set(d, most));
+    return hn::Round(hn::Mul(clamp_unit(v), hn::Set(d, 255.0F)));
   }
 }
 
+// The product of two 8-bit levels in Mesa's integers (lp_build_mul_norm): p = a b, then (p + (p >> 8) + 128) >> 8,
+// which is a b / 255 to nearest but for a few products just above a half. Every step is exact in float.
+HWY_INLINE Floats multiply_levels(Floats a, Floats b) {
+  const FloatTag d;
+  const Floats p = hn::Mul(a, b), per_256 = hn::Set(d, 1.0F / 256);
+  return hn::Floor(hn::Mul(hn::Add(hn::Add(p, hn::Floor(hn::Mul(p, per_256))), hn::Set(d, 128.0F)), per_256));
+}
+
+// Of levels: the source was rounded to 8 bits, and each product is before the sum, which saturates.
 template <Blend blend>
+HWY_INLINE Rgba blend_levels(const Rgba& s, const Rgba& t) {
+  const Floats most = hn::Set(FloatTag(), 255.0F);
+  const auto sum = [&](Floats a, Floats b) HWY_ATTR { return hn::Min(hn::Add(a, b), most); };
+  if constexpr (blend == Blend::Opaque) {
+    return s;
+  } else if constexpr (blend == Blend::Add) {
+    return {sum(t.r, s.r), sum(t.g, s.g), sum(t.b, s.b), sum(t.a, s.a)};
+  } else if constexpr (blend == Blend::Over) {
+    const Floats k = hn::Sub(most, s.a);
+    return {sum(s.r, multiply_levels(k, t.r)), sum(s.g, multiply_levels(k, t.g)), sum(s.b, multiply_levels(k, t.b)),
+            sum(s.a, multiply_levels(k, t.a))};
+  } else {
+    const Floats k = hn::Sub(most, t.a);
+    return {sum(t.r, multiply_levels(k, s.r)), sum(t.g, multiply_levels(k, s.g)), sum(t.b, multiply_levels(k, s.b)),
+            sum(t.a, multiply_levels(k, s.a))};
+  }
+}
+
+template <Precision precision, Blend blend>
 HWY_INLINE Rgba blend_colours(const Rgba& s, const Rgba& t) {
   const Floats one = hn::Set(FloatTag(), 1.0F);
-  if constexpr (blend == Blend::Opaque) {
+  if constexpr (precision == Precision::Unorm8) {
+    return blend_levels<blend>(s, t);
+  } else if constexpr (blend == Blend::Opaque) {
     return s;
   } else if constexpr (blend == Blend::Add) {
     return {hn::Add(t.r, s.r), hn::Add(t.g, s.g), hn::Add(t.b, s.b), hn::Add(t.a, s.a)};
@@ -95,10 +128,14 @@ template <Precision precision, bool alpha, Blend blend>
 void blend_queue(FragmentQueue& queue, TileScratch& tile, const uint8_t* discard) {
   const FloatTag d;
   const size_t lanes = hn::Lanes(d);
-  constexpr bool kUnorm = precision == Precision::Unorm8 || precision == Precision::Unorm16;
   const auto in = [&](const float* from) HWY_ATTR {
     const Floats v = hn::LoadU(d, from);
-    return kUnorm ? clamp_unit(v) : v;
+    if constexpr (precision == Precision::Unorm8) return quantise<precision>(v);
+    return precision == Precision::Unorm16 ? clamp_unit(v) : v;
+  };
+  const auto out_of = [](Floats v) HWY_ATTR {
+    if constexpr (precision == Precision::Unorm8) return v;  // whole levels already
+    return quantise<precision>(v);
   };
   for (size_t r = 0; r < queue.run_count; ++r) {
     const FragmentQueue::Run run = queue.runs[r];
@@ -109,9 +146,8 @@ void blend_queue(FragmentQueue& queue, TileScratch& tile, const uint8_t* discard
       const Rgba source{in(queue.rgba[0] + from), in(queue.rgba[1] + from), in(queue.rgba[2] + from),
                         in(queue.rgba[3] + from)};
       const Rgba target{hn::LoadU(d, to[0]), hn::LoadU(d, to[1]), hn::LoadU(d, to[2]), hn::LoadU(d, to[3])};
-      const Rgba result = blend_colours<blend>(source, target);
-      const Floats out[4] = {quantise<precision>(result.r), quantise<precision>(result.g),
-                             quantise<precision>(result.b), alpha ? quantise<precision>(result.a) : target.a};
+      const Rgba result = blend_colours<precision, blend>(source, target);
+      const Floats out[4] = {out_of(result.r), out_of(result.g), out_of(result.b), alpha ? out_of(result.a) : target.a};
       if (discard == nullptr && k + lanes <= run.count) {
         for (int c = 0; c < 4; ++c) hn::StoreU(out[c], d, to[c]);
       } else {
