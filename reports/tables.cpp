@@ -7,42 +7,15 @@
 #include <map>
 
 #include "reports/analysis.h"
+#include "reports/effects_table.h"
+#include "reports/text_table.h"
 
 namespace volumark {
 namespace {
 
 using Row = std::vector<std::string>;
 
-size_t display_width(const std::string& text) {
-  size_t width = 0;
-  for (const char c : text) width += (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
-  return width;
-}
-
-// Columns as wide as their widest cell; the first `left` of them are set to the left, the others to the right.
-std::string table(const std::vector<Row>& rows, size_t left) {
-  std::vector<size_t> widths(rows.front().size());
-  for (const Row& row : rows)
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], display_width(row[i]));
-  std::string out;
-  for (size_t r = 0; r < rows.size(); ++r) {
-    std::string line;
-    for (size_t i = 0; i < rows[r].size(); ++i) {
-      const std::string pad(widths[i] - display_width(rows[r][i]), ' ');
-      line += (i > 0 ? "  " : "") + (i < left ? rows[r][i] + pad : pad + rows[r][i]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    out += line + "\n";
-    if (r == 0) {
-      size_t total = 2 * (widths.size() - 1);
-      for (const size_t width : widths) total += width;
-      out += std::string(total, '-') + "\n";
-    }
-  }
-  return out;
-}
-
-// Parameters other than the quality axis in which the cells of one scene, method and backend differ.
+// What else the cells of one scene, method and backend differ in: parameters other than the quality axis, effects.
 std::string variant_of(const Results& results, const Result& result) {
   std::string out;
   for (const auto& [name, value] : result.key.params) {
@@ -55,6 +28,7 @@ std::string variant_of(const Results& results, const Result& result) {
     if (varies)
       out += fmt::format(" {}={}", name, std::visit([](const auto& v) { return fmt::format("{}", v); }, value));
   }
+  if (!result.key.variant.empty()) out += " (" + result.key.variant + ")";
   return out;
 }
 
@@ -100,7 +74,7 @@ std::string time_to_error_table(const Results& results) {
   return "Time a frame to reach an error (RMSE of the worst view; - not reached; < the coarsest setting that was "
          "tried, or\n"
          "one that was measured exactly; * software: never ranked against a GPU)\n\n" +
-         table(rows, 3);
+         text_table(rows, 3);
 }
 
 std::string convergence_table(const Results& results) {
@@ -112,7 +86,7 @@ std::string convergence_table(const Results& results) {
     rows.push_back({row.key.scene, row.key.method + variant_of(results, carrier), row.key.backend, row.parameter,
                     fmt::format("{:.2f}", row.fitted), fmt::format("{:g}", row.expected), row.verdict});
   }
-  return rows.size() == 1 ? "" : "\nOrder of convergence (error ~ axis^order)\n\n" + table(rows, 4);
+  return rows.size() == 1 ? "" : "\nOrder of convergence (error ~ axis^order)\n\n" + text_table(rows, 4);
 }
 
 std::string parity_lines(const Results& results) {
@@ -168,7 +142,8 @@ std::string seconds_text(double seconds) {
 }
 
 std::string tables_text(const Results& results) {
-  return time_to_error_table(results) + convergence_table(results) + parity_lines(results) + outcome_lines(results);
+  return time_to_error_table(results) + convergence_table(results) + effects_table(results) + parity_lines(results) +
+         outcome_lines(results);
 }
 
 }  // namespace volumark
