@@ -1,6 +1,5 @@
 #include "harness/environment.h"
 
-#include <sys/resource.h>
 #include <sys/sysinfo.h>
 #include <sys/utsname.h>
 
@@ -49,6 +48,11 @@ std::string value_in_file(const char* file, const std::string& key, char separat
     return begin == std::string::npos ? "" : value.substr(begin, end - begin + 1);
   }
   return {};
+}
+
+int64_t kilobytes_of_status(const char* key) {
+  const std::string value = value_in_file("/proc/self/status", key, ':');
+  return value.empty() ? 0 : std::strtoll(value.c_str(), nullptr, 10) * 1024;
 }
 
 std::string hypervisor() {
@@ -126,10 +130,14 @@ std::string utc_now() {
   return text;
 }
 
-int64_t peak_resident_bytes() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<int64_t>(usage.ru_maxrss) * 1024;
+int64_t resident_bytes() { return kilobytes_of_status("VmRSS"); }
+
+int64_t peak_resident_bytes() { return kilobytes_of_status("VmHWM"); }
+
+bool reset_peak_resident() {
+  std::ofstream file("/proc/self/clear_refs");
+  file << "5" << std::flush;  // proc(5): the peak resident set is set to the current one
+  return file.good();
 }
 
 std::string version_line() {

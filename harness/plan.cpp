@@ -85,13 +85,19 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string command_of(const Experiment& experiment, const CellKey& key) {
+std::string command_of(const Experiment& experiment, const CellKey& key, const std::vector<Sweep>& sweeps) {
   const bool shipped = std::filesystem::path(experiment.path).parent_path() == experiment_directory();
   std::string out =
       fmt::format("volumark run {} --scene {} --method {} --backend {}",
                   quoted(shipped ? experiment.name : experiment.path), quoted(key.scene), key.method, key.backend);
-  // Only what tells this cell from the others of its method.
+  const auto is_swept = [&](const std::string& name) {
+    return std::any_of(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) { return sweep.parameter == name; });
+  };
+  for (const auto& [name, value] : key.params)
+    if (is_swept(name)) out += " --sweep " + quoted(name + "=" + to_string(value));
+  // Beyond that, only what tells this cell from the others of its method.
   for (const auto& [name, value] : key.params) {
+    if (is_swept(name)) continue;
     std::set<std::string> seen;
     for (const ExperimentMethod& method : experiment.methods) {
       if (method.method->info().name != key.method) continue;
@@ -107,7 +113,7 @@ std::string command_of(const Experiment& experiment, const CellKey& key) {
 }
 
 Group make_group(const Experiment& experiment, const std::string& scene, const ExperimentMethod& method,
-                 const Values& values, const CellFilter& filter) {
+                 const Values& values, const CellFilter& filter, const std::vector<Sweep>& sweeps) {
   Group group;
   group.experiment = &experiment;
   group.scene = scene;
@@ -119,8 +125,8 @@ Group make_group(const Experiment& experiment, const std::string& scene, const E
     if (!passes(filter.backends, backend)) continue;
     Cell cell;
     cell.backend = backend;
-    cell.key = {experiment.name, scene_name(scene), method.method->info().name, backend, values};
-    cell.command = command_of(experiment, cell.key);
+    cell.key = {experiment.name, scene_name(scene), method.method->info().name, backend, values, ""};
+    cell.command = command_of(experiment, cell.key, sweeps);
     group.cells.push_back(std::move(cell));
   }
   return group;
@@ -138,8 +144,10 @@ void check_unique(const std::vector<Group>& groups) {
 
 }  // namespace
 
-std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter) {
+std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter,
+                              const std::vector<Sweep>& sweeps) {
   check_filters(experiments, filter);
+  size_t cells = 0;
   std::vector<Group> groups;
   for (const Experiment& experiment : experiments)
     for (const std::string& scene : experiment.scenes) {
@@ -153,7 +161,13 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
           if (!std::isnan(quality))
             set_value(method.method->info().parameters, values, method.quality_axis, nlohmann::json(quality));
           if (!passes(filter, values)) continue;
-          Group group = make_group(experiment, scene, method, values, filter);
+          Group group = make_group(experiment, scene, method, values, filter, sweeps);
+          cells += group.cells.size();
+          if (cells > kMostCells)
+            throw SceneError(
+                fmt::format("{}: more than {} cells; choose fewer with --scene, --method, --backend, --only "
+                            "or fewer values of --sweep",
+                            experiment.path, kMostCells));
           group.finest = std::isnan(quality) || quality == sweep.back();
           if (!group.cells.empty()) groups.push_back(std::move(group));
         }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "harness/experiment.h"
+#include "harness/sweep.h"
 #include "reports/results.h"
 
 namespace volumark {
@@ -33,7 +34,10 @@ struct CellFilter {
   std::vector<std::pair<std::string, std::string>> only;  // parameter = value, as on the command line
 };
 
-// Scene by scene, method, quality value, backend. Throws SceneError where a filter names what no experiment has.
-std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter);
+// Scene by scene, method, quality value, backend. `sweeps` are those that were applied to the experiments: the cells'
+// commands name them. Throws SceneError where a filter names what no experiment has, and for more than kMostCells
+// cells.
+std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter,
+                              const std::vector<Sweep>& sweeps = {});
 
 }  // namespace volumark

@@ -4,6 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <random>
+#include <set>
+#include <thread>
 
 #include "harness/convergence.h"
 #include "harness/environment.h"
@@ -37,6 +42,15 @@ Result* find(Results& results, const CellKey& key) {
   return found == results.results.end() ? nullptr : &*found;
 }
 
+constexpr uint64_t kSeed = 1;  // of the order
+
+std::map<std::string, std::string> device_options(const DeviceOptions& device) {
+  return {{"threads", std::to_string(device.threads)},
+          {"gl_platform", device.gl_platform},
+          {"vk_device", device.vk_device},
+          {"validation", device.validation ? "on" : "off"}};
+}
+
 // What decides where a cell is drawn, as words of the command line, each with a space before it.
 std::string global_options(const DeviceOptions& device) {
   std::string out;
@@ -44,6 +58,18 @@ std::string global_options(const DeviceOptions& device) {
   if (!device.vk_device.empty()) out += fmt::format(" --vk-device '{}'", device.vk_device);
   if (device.threads > 0) out += fmt::format(" --threads {}", device.threads);
   return out;
+}
+
+// Each open cell holds a copy of the volume on its Device, which software drivers keep in main memory as well.
+bool fit_together(const SceneContext& context, size_t cells) {
+  if (cells < 2 || !context.scene.volume) return true;
+  const auto texels = static_cast<double>(context.scene.volume->voxels.size());
+  return 4 * texels * static_cast<double>(cells) < 0.25 * static_cast<double>(machine_info().ram_bytes);
+}
+
+// Targets with few bits round at every blend, each driver in its own way: no limit between backends holds there.
+bool compares_backends(const Group& group) {
+  return group.experiment->parity > 0 && group.method->target_format(group.values) == Format::RGBA32F;
 }
 
 class Runner {
@@ -54,7 +80,8 @@ class Runner {
       experiments_.push_back(load_experiment(name));
       if (!options.images) experiments_.back().images = Experiment::Images::None;
     }
-    groups_ = plan_cells(experiments_, options.filter);
+    remarks_ = apply_sweeps(experiments_, options.sweeps, options.filter.methods);
+    groups_ = plan_cells(experiments_, options.filter, options.sweeps);
     const std::string globals = global_options(options.cell.device);
     for (Group& group : groups_) {
       for (Cell& cell : group.cells) cell.command.insert(std::string("volumark").size(), globals);
@@ -64,28 +91,82 @@ class Runner {
   RunOutcome run();
 
  private:
+  std::optional<Results> earlier_results() const;
+  std::string differences(const Results& earlier) const;
   void start();
   void describe();
   void run_scene(size_t begin, size_t end, Progress& progress);
   void run_group(const Group& group, const SceneContext& context, Progress& progress);
+  void measure(const Group& group, const std::vector<size_t>& cells, const SceneContext& context,
+               std::vector<std::map<int, Image>>& images, Progress& progress);
+  void keep(Result result, const Group& group, const Cell& cell, Progress& progress);
   bool done_before(const Cell& cell, const Group& group, const SceneContext& context);
   Result died(const Group& group, const Cell& cell, const SceneContext& context) const;
   void compare_backends(const Group& group, const SceneContext& context,
                         const std::vector<std::map<int, Image>>& images, Progress& progress);
   void note_backend(const BackendInfo& info);
+  void sort_results();
   void collect_bad_news();
 
   const RunOptions& options_;
   ReferenceCache cache_;
   std::vector<Experiment> experiments_;
+  std::vector<std::string> remarks_;
   std::vector<Group> groups_;
   RunFolder folder_;
   PictureStore store_;
   RunOutcome out_;
 };
 
+// What figures depend on beyond the cells themselves, where it is not what it was: "commit abc, now def; ...".
+std::string Runner::differences(const Results& earlier) const {
+  std::vector<std::string> out;
+  const auto compare = [&](const std::string& what, const std::string& was, const std::string& is) {
+    if (was != is)
+      out.push_back(fmt::format("{}: {}, now {}", what, was.empty() ? "none" : was, is.empty() ? "none" : is));
+  };
+  const GitInfo git = git_info();
+  const BuildInfo build = build_info();
+  const MachineInfo machine = machine_info();
+  compare("commit", earlier.git.sha, git.sha);
+  compare("local changes", earlier.git.dirty ? "yes" : "no", git.dirty ? "yes" : "no");
+  compare("build type", earlier.build.type, build.type);
+  compare("compiler", earlier.build.compiler + " " + earlier.build.version, build.compiler + " " + build.version);
+  compare("compiler flags", earlier.build.flags, build.flags);
+  compare("processor", earlier.machine.cpu, machine.cpu);
+  compare("cores", std::to_string(earlier.machine.cores), std::to_string(machine.cores));
+  const auto compare_all = [&](const std::map<std::string, std::string>& was,
+                               const std::map<std::string, std::string>& is) {
+    const auto value = [](const auto& map, const std::string& name) {
+      const auto found = map.find(name);
+      return found == map.end() ? std::string() : found->second;
+    };
+    std::set<std::string> names;
+    for (const auto& [name, unused] : was) names.insert(name);
+    for (const auto& [name, unused] : is) names.insert(name);
+    for (const std::string& name : names) compare(name, value(was, name), value(is, name));
+  };
+  compare_all(earlier.machine.env, machine.env);
+  compare_all(earlier.run.device, device_options(options_.cell.device));
+  std::vector<std::string> sweeps;
+  for (const Sweep& sweep : options_.sweeps) sweeps.push_back(to_string(sweep));
+  compare("--sweep", fmt::format("{}", fmt::join(earlier.run.sweeps, " ")), fmt::format("{}", fmt::join(sweeps, " ")));
+  return fmt::format("{}", fmt::join(out, "; "));
+}
+
+// A results.json that cannot be read stands in the way of everything but --overwrite.
+std::optional<Results> Runner::earlier_results() const {
+  try {
+    return folder_.earlier();
+  } catch (const ResultsError& error) {
+    if (options_.overwrite && !options_.resume) return std::nullopt;
+    throw ResultsError(
+        fmt::format("{}; choose another folder with --out, or replace it with --overwrite", error.what()));
+  }
+}
+
 void Runner::start() {
-  std::optional<Results> earlier = folder_.earlier();
+  std::optional<Results> earlier = earlier_results();
   const GitInfo git = git_info();
   if (earlier && !options_.resume && !options_.overwrite) {
     const bool finished = !earlier->run.finished_at.empty();
@@ -95,11 +176,11 @@ void Runner::start() {
                                   finished ? "choose another folder with --out" : "go on with --resume"));
   }
   if (earlier && options_.resume) {
-    if (earlier->git.sha != git.sha)
+    if (const std::string differs = differences(*earlier); !differs.empty())
       throw FolderError(
-          fmt::format("{}: its results are of commit {}, this program is of commit {}: they cannot be "
-                      "mixed; choose another folder with --out, or --overwrite",
-                      folder_.path().string(), earlier->git.sha, git.sha));
+          fmt::format("{}: its run cannot be gone on with, since figures depend on what differs: {}; choose another "
+                      "folder with --out, or replace the run with --overwrite",
+                      folder_.path().string(), differs));
     out_.results = std::move(*earlier);
     ++out_.results.run.resumed;
     out_.results.run.interrupted = false;
@@ -110,8 +191,13 @@ void Runner::start() {
   results.run.started_at = utc_now();
   results.run.id = results.run.started_at + "-" + std::to_string(::getpid());
   results.run.argv = options_.argv;
-  results.run.order = "scene, method, quality value, backend; views in turn within a pass";
-  results.run.seed = 1;
+  results.run.order =
+      "scene by scene; within a scene, method and parameters shuffled with the seed; backends pass by pass in turn; "
+      "views "
+      "in turn within a pass, each pass one view further";
+  results.run.seed = kSeed;
+  results.run.device = device_options(options_.cell.device);
+  for (const Sweep& sweep : options_.sweeps) results.run.sweeps.push_back(to_string(sweep));
   results.git = git;
   results.build = build_info();
   results.machine = machine_info();
@@ -167,9 +253,56 @@ Result Runner::died(const Group& group, const Cell& cell, const SceneContext& co
   return result;
 }
 
+void Runner::keep(Result result, const Group& group, const Cell& cell, Progress& progress) {
+  folder_.end_cell(result);
+  progress.cell(short_name(group, cell), summary(result));
+  if (Result* old = find(out_.results, cell.key))
+    *old = std::move(result);
+  else
+    out_.results.results.push_back(std::move(result));
+  folder_.save(out_.results, false);
+}
+
+// Cells that are open together, pass by pass in turn: a drift of the machine meets all of them alike.
+void Runner::measure(const Group& group, const std::vector<size_t>& cells, const SceneContext& context,
+                     std::vector<std::map<int, Image>>& images, Progress& progress) {
+  std::vector<std::unique_ptr<CellRun>> open;
+  const int64_t empty = resident_bytes();
+  try {
+    for (const size_t i : cells) {
+      folder_.begin_cell(group.cells[i].key);
+      open.push_back(std::make_unique<CellRun>(group, group.cells[i], context, options_.cell));
+      const int64_t others = resident_bytes() - empty;
+      reset_peak_resident();
+      open.back()->open();
+      open.back()->held_by_others(others);
+    }
+    // Workers of the last backend wait a moment for more work before they sleep: that is not the next one's time.
+    std::vector<CellRun*> running;
+    for (const auto& cell : open) running.push_back(cell.get());
+    while (!running.empty())
+      std::erase_if(running, [&](CellRun* cell) {
+        if (open.size() > 1) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        return !cell->pass();
+      });
+  } catch (const Interrupted&) {
+    for (size_t k = 0; k < open.size(); ++k) folder_.drop_cell(group.cells[cells[k]].key);
+    throw;
+  }
+  for (size_t k = 0; k < open.size(); ++k) {
+    Result result = open[k]->finish(store_);
+    images[cells[k]] = open[k]->images();
+    if (open[k]->backend()) note_backend(*open[k]->backend());
+    open[k].reset();
+    keep(std::move(result), group, group.cells[cells[k]], progress);
+  }
+}
+
 void Runner::run_group(const Group& group, const SceneContext& context, Progress& progress) {
   std::vector<std::map<int, Image>> images(group.cells.size());
   std::vector<bool> before(group.cells.size());
+  std::vector<size_t> together;
+  std::vector<std::vector<size_t>> alone;
   for (size_t i = 0; i < group.cells.size(); ++i) {
     const Cell& cell = group.cells[i];
     if (options_.resume && done_before(cell, group, context)) {
@@ -178,30 +311,22 @@ void Runner::run_group(const Group& group, const SceneContext& context, Progress
       progress.skip();
       continue;
     }
-    Result result;
     const auto deaths = folder_.died_in().find(key_text(cell.key));
-    if (options_.resume && deaths != folder_.died_in().end() && deaths->second >= 2) {
-      result = died(group, cell, context);
-    } else {
-      folder_.begin_cell(cell.key);
-      std::optional<BackendInfo> backend;
-      try {
-        result = run_cell(group, cell, context, options_.cell, store_, backend, images[i]);
-      } catch (const Interrupted&) {
-        folder_.drop_cell(cell.key);
-        throw;
-      }
-      if (backend) note_backend(*backend);
-    }
-    folder_.end_cell(result);
-    progress.cell(short_name(group, cell), summary(result));
-    if (Result* old = find(out_.results, cell.key))
-      *old = std::move(result);
+    const int died_before = options_.resume && deaths != folder_.died_in().end() ? deaths->second : 0;
+    if (died_before >= 2)
+      keep(died(group, cell, context), group, cell, progress);
+    else if (died_before == 1)
+      alone.push_back({i});  // so that a second death tells which of them it was
     else
-      out_.results.results.push_back(std::move(result));
-    folder_.save(out_.results, false);
+      together.push_back(i);
   }
-  if (group.experiment->parity <= 0 || std::all_of(before.begin(), before.end(), [](bool b) { return b; })) return;
+  if (!fit_together(context, together.size())) {
+    for (const size_t i : together) alone.push_back({i});
+    together.clear();
+  }
+  if (!together.empty()) measure(group, together, context, images, progress);
+  for (const std::vector<size_t>& one : alone) measure(group, one, context, images, progress);
+  if (!compares_backends(group) || std::all_of(before.begin(), before.end(), [](bool b) { return b; })) return;
   for (size_t i = 0; i < group.cells.size(); ++i) {
     const Result* old = before[i] ? find(out_.results, group.cells[i].key) : nullptr;
     if (old != nullptr && old->metrics) images[i] = draw_cell(group, group.cells[i], context, options_.cell);
@@ -262,7 +387,25 @@ void Runner::run_scene(size_t begin, size_t end, Progress& progress) {
                   progress);
   std::erase_if(out_.results.scenes, [&](const SceneResultInfo& info) { return info.name == context.scene.name; });
   out_.results.scenes.push_back(scene_result_info(context.scene));
-  for (size_t i = begin; i < end; ++i) run_group(groups_[i], context, progress);
+  // Neighbouring settings are not measured one after another either.
+  std::vector<size_t> order(end - begin);
+  std::iota(order.begin(), order.end(), begin);
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(kSeed));
+  for (const size_t i : order) run_group(groups_[i], context, progress);
+}
+
+// Results in the order of the plan, whatever the order they were measured in; those of no cell of the plan come last.
+void Runner::sort_results() {
+  std::map<std::string, size_t> place;
+  for (const Group& group : groups_)
+    for (const Cell& cell : group.cells) place.emplace(key_text(cell.key), place.size());
+  std::vector<std::pair<size_t, Result>> sorted;
+  for (Result& result : out_.results.results) {
+    const auto found = place.find(key_text(result.key));
+    sorted.emplace_back(found == place.end() ? place.size() : found->second, std::move(result));
+  }
+  std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (size_t i = 0; i < sorted.size(); ++i) out_.results.results[i] = std::move(sorted[i].second);
 }
 
 void Runner::collect_bad_news() {
@@ -294,6 +437,7 @@ RunOutcome Runner::run() {
   folder_.save(out_.results, true);
   {
     Progress progress(options_.progress, cells);
+    for (const std::string& remark : remarks_) progress.line(remark);
     try {
       for (size_t begin = 0, end = 0; begin < groups_.size(); begin = end) {
         while (end < groups_.size() && groups_[end].scene == groups_[begin].scene &&
@@ -305,6 +449,7 @@ RunOutcome Runner::run() {
       out_.interrupted = true;
     }
   }
+  sort_results();
   fit_convergence(out_.results, experiments_);
   out_.results.run.interrupted = out_.interrupted;
   if (!out_.interrupted) out_.results.run.finished_at = utc_now();

@@ -9,12 +9,14 @@
 
 #include "harness/cell.h"
 #include "harness/plan.h"
+#include "harness/sweep.h"
 #include "scenes/scene_io.h"
 
 namespace volumark {
 
 struct RunOptions {
   std::vector<std::string> experiments;  // names or paths
+  std::vector<Sweep> sweeps;
   CellFilter filter;
   std::filesystem::path out;
   std::filesystem::path cache;  // of references

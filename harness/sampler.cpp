@@ -20,11 +20,11 @@ void set_stats(Metric& metric) { metric.stats = stats_of(metric.samples, metric.
 }  // namespace
 
 FrameSampler::FrameSampler(const Experiment& experiment, const SceneContext& context, const std::atomic<bool>* stop)
-    : experiment_(experiment), context_(context), stop_(stop), started_(now()) {}
+    : experiment_(experiment), context_(context), stop_(stop) {}
 
 void FrameSampler::check_limits() const {
   if (stop_ != nullptr && stop_->load()) throw Interrupted{};
-  const double spent = since(started_).wall;
+  const double spent = spent_ + since(entered_).wall;
   if (spent > experiment_.timeout)
     throw TimedOut{fmt::format("{:.3g} s were spent, the limit of a cell is {:g} s", spent, experiment_.timeout)};
 }
@@ -41,71 +41,76 @@ void FrameSampler::add(const FrameCost& frame, int view) {
   for (const auto& [name, seconds] : zones) put(metrics_.zones[name], seconds);
 }
 
-void FrameSampler::first_pass(FrameSource& source, Result& result, std::map<int, Image>& images) {
+void FrameSampler::first_frames(Result& result, std::map<int, Image>& images) {
   for (const int view : context_.views) {
-    const FrameCost frame = source.frame(context_.scene.views[static_cast<size_t>(view)]);
+    const FrameCost frame = source_->frame(context_.scene.views[static_cast<size_t>(view)]);
     if (!metrics_.frame_wall.first) {
       metrics_.frame_wall.first = frame.cost.wall;
       metrics_.frame_cpu.first = frame.cost.cpu;
     }
     drawn_ = true;
-    images[view] = source.read_back();
+    images[view] = source_->read_back();
     ViewResult entry;
     entry.index = view;
     entry.name = context_.scene.views[static_cast<size_t>(view)].name;
-    const Counters counters = source.counters();
+    const Counters counters = source_->counters();
     entry.counters.insert(counters.begin(), counters.end());
     result.views.push_back(std::move(entry));
     check_limits();
   }
 }
 
-bool FrameSampler::precise() const {
-  const Metric& wall = metrics_.frame_wall;
-  const Interval interval = bootstrap_median(wall.samples, wall.views);
-  return interval.hi - interval.lo <= experiment_.precision * median(wall.samples);
-}
-
-void FrameSampler::timed_passes(FrameSource& source) {
+void FrameSampler::begin(const Method& method, const Values& values, Device& device, Result& result,
+                         std::map<int, Image>& images) {
+  entered_ = now();
+  source_.emplace(context_.scene, method, values, device, context_.width, context_.height);
+  metrics_.prepare.wall = source_->prepare_cost().cost.wall;
+  metrics_.prepare.cpu = source_->prepare_cost().cost.cpu;
+  for (const ZoneTime& zone : source_->prepare_cost().zones) metrics_.prepare.zones[zone.name] += zone.seconds;
   metrics_.timing.precision = experiment_.precision;
   metrics_.timing.budget = experiment_.budget;
-  metrics_.timing.stopped = "count";
-  const Instant start = now();
-  int next_check = experiment_.least;
-  for (int pass = 1; pass <= experiment_.most; ++pass) {
-    for (const int view : context_.views) {
-      add(source.frame(context_.scene.views[static_cast<size_t>(view)]), view);
-      check_limits();
-    }
-    if (pass < experiment_.least) continue;
-    if (since(start).wall >= experiment_.budget) {
-      metrics_.timing.stopped = "budget";
-      return;
-    }
-    if (pass >= next_check) {
-      if (precise()) {
-        metrics_.timing.stopped = "precision";
-        return;
-      }
-      next_check = pass + std::max(1, pass / 4);  // the test costs time too
-    }
-  }
-}
-
-void FrameSampler::run(const Method& method, const Values& values, Device& device, Result& result,
-                       std::map<int, Image>& images) {
-  FrameSource source(context_.scene, method, values, device, context_.width, context_.height);
-  metrics_.prepare.wall = source.prepare_cost().cost.wall;
-  metrics_.prepare.cpu = source.prepare_cost().cost.cpu;
-  for (const ZoneTime& zone : source.prepare_cost().zones) metrics_.prepare.zones[zone.name] += zone.seconds;
   check_limits();
-  first_pass(source, result, images);
-  timed_passes(source);
+  first_frames(result, images);
   metrics_.peak_bytes.device = static_cast<int64_t>(device.peak_bytes());
   metrics_.peak_bytes.process = peak_resident_bytes();
   metrics_.peak_bytes.voxels = static_cast<int64_t>(context_.scene.volume->voxels.size());
-  metrics_.peak_bytes.target = static_cast<int64_t>(source.target_bytes());
-  finish(result);
+  metrics_.peak_bytes.target = static_cast<int64_t>(source_->target_bytes());
+  next_check_ = std::max(experiment_.least, 3);  // fewer samples a view have no interval worth the name
+  spent_ += since(entered_).wall;
+}
+
+bool FrameSampler::precise() const {
+  const Metric& wall = metrics_.frame_wall;
+  const Interval interval = bootstrap_typical(wall.samples, wall.views);
+  return interval.hi - interval.lo <= experiment_.precision * typical(wall.samples, wall.views);
+}
+
+// Each pass starts one view further: the first frame after a change of cell finds cold caches, and that is not one
+// view's burden alone.
+bool FrameSampler::pass() {
+  entered_ = now();
+  const size_t views = context_.views.size();
+  for (size_t i = 0; i < views; ++i) {
+    const int view = context_.views[(i + static_cast<size_t>(passes_)) % views];
+    add(source_->frame(context_.scene.views[static_cast<size_t>(view)]), view);
+    check_limits();
+  }
+  const double seconds = since(entered_).wall;
+  spent_ += seconds;
+  sampled_ += seconds;
+  ++passes_;
+  const auto stop = [this](const char* why) {
+    metrics_.timing.stopped = why;
+    return false;
+  };
+  if (passes_ >= experiment_.least) {
+    if (sampled_ >= experiment_.budget) return stop("budget");
+    if (passes_ >= next_check_) {
+      if (precise()) return stop("precision");
+      next_check_ = passes_ + std::max(1, passes_ / 4);  // the test costs time too
+    }
+  }
+  return passes_ < experiment_.most || stop("count");
 }
 
 void FrameSampler::finish(Result& result) const {

@@ -1,10 +1,12 @@
 // The samples of one cell: which frames are drawn, timed and read back, and when enough is known.
-// Pass 0 draws every view once, untimed but for the very first frame, and reads the pictures back. Then passes over all
-// views, one frame each, until the interval of the median is narrow enough or the budget is spent.
+// begin() draws every view once, untimed but for the very first frame, and reads the pictures back. Each pass() then
+// draws one timed frame of every view, until the interval of the cell's figure is narrow enough or the budget is spent.
+// Only time inside these calls counts: the passes of several cells can take turns.
 #pragma once
 
 #include <atomic>
 #include <map>
+#include <optional>
 
 #include "harness/cell.h"
 #include "harness/frame.h"
@@ -19,14 +21,14 @@ class FrameSampler {
  public:
   FrameSampler(const Experiment& experiment, const SceneContext& context, const std::atomic<bool>* stop);
 
-  // Throws TimedOut, Interrupted, and what the method and the Device throw. Fills metrics and views of `result`.
-  void run(const Method& method, const Values& values, Device& device, Result& result, std::map<int, Image>& images);
-  // Statistics of the samples so far; run() ends with it.
+  // Each throws TimedOut, Interrupted, and what the method and the Device throw. The Device outlives the sampler.
+  void begin(const Method& method, const Values& values, Device& device, Result& result, std::map<int, Image>& images);
+  bool pass();  // false: enough is known
+  // Metrics and statistics of the samples so far, into `result`.
   void finish(Result& result) const;
 
  private:
-  void first_pass(FrameSource& source, Result& result, std::map<int, Image>& images);
-  void timed_passes(FrameSource& source);
+  void first_frames(Result& result, std::map<int, Image>& images);
   void add(const FrameCost& frame, int view);
   bool precise() const;
   void check_limits() const;
@@ -34,8 +36,11 @@ class FrameSampler {
   const Experiment& experiment_;
   const SceneContext& context_;
   const std::atomic<bool>* stop_;
-  Instant started_;
   Metrics metrics_;
+  std::optional<FrameSource> source_;
+  double spent_ = 0, sampled_ = 0;  // seconds: in all, and in passes
+  Instant entered_;                 // the call that is running
+  int passes_ = 0, next_check_ = 0;
   bool drawn_ = false;
 };
 

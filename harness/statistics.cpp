@@ -42,22 +42,43 @@ double median(std::vector<double> samples) {
   return median_in_place(samples);
 }
 
-Interval bootstrap_median(std::span<const double> samples, std::span<const int64_t> strata, int resamples,
-                          uint64_t seed) {
-  if (samples.empty()) throw std::invalid_argument("bootstrap of no samples");
+namespace {
+
+std::vector<std::vector<double>> by_stratum(std::span<const double> samples, std::span<const int64_t> strata) {
+  if (samples.empty()) throw std::invalid_argument("statistics of no samples");
   if (!strata.empty() && strata.size() != samples.size()) throw std::invalid_argument("one stratum a sample expected");
   std::map<int64_t, std::vector<double>> groups;
   for (size_t i = 0; i < samples.size(); ++i) groups[strata.empty() ? 0 : strata[i]].push_back(samples[i]);
+  std::vector<std::vector<double>> out;
+  for (auto& [unused, group] : groups) out.push_back(std::move(group));
+  return out;
+}
+
+}  // namespace
+
+double typical(std::span<const double> samples, std::span<const int64_t> strata) {
+  std::vector<std::vector<double>> groups = by_stratum(samples, strata);
+  double sum = 0;
+  for (std::vector<double>& group : groups) sum += median_in_place(group);
+  return sum / static_cast<double>(groups.size());
+}
+
+Interval bootstrap_typical(std::span<const double> samples, std::span<const int64_t> strata, int resamples,
+                           uint64_t seed) {
+  const std::vector<std::vector<double>> groups = by_stratum(samples, strata);
   std::mt19937_64 random(seed);
-  std::vector<double> medians, drawn;
+  std::vector<double> figures, drawn;
   for (int r = 0; r < resamples; ++r) {
-    drawn.clear();
-    for (const auto& [unused, group] : groups)
+    double sum = 0;
+    for (const std::vector<double>& group : groups) {
+      drawn.clear();
       for (size_t i = 0; i < group.size(); ++i) drawn.push_back(group[random() % group.size()]);
-    medians.push_back(median_in_place(drawn));
+      sum += median_in_place(drawn);
+    }
+    figures.push_back(sum / static_cast<double>(groups.size()));
   }
-  std::sort(medians.begin(), medians.end());
-  return {sorted_percentile(medians, 0.025), sorted_percentile(medians, 0.975)};
+  std::sort(figures.begin(), figures.end());
+  return {sorted_percentile(figures, 0.025), sorted_percentile(figures, 0.975)};
 }
 
 Stats stats_of(std::span<const double> samples, std::span<const int64_t> strata, uint64_t seed) {
@@ -66,14 +87,14 @@ Stats stats_of(std::span<const double> samples, std::span<const int64_t> strata,
   if (samples.empty()) return stats;
   std::vector<double> sorted(samples.begin(), samples.end());
   std::sort(sorted.begin(), sorted.end());
-  stats.median = sorted_percentile(sorted, 0.5);
+  stats.median = typical(samples, strata);
   stats.p5 = sorted_percentile(sorted, 0.05);
   stats.p95 = sorted_percentile(sorted, 0.95);
   stats.min = sorted.front();
   stats.max = sorted.back();
   for (const double value : sorted) stats.mean += value;
   stats.mean /= static_cast<double>(sorted.size());
-  const Interval interval = bootstrap_median(samples, strata, 400, seed);
+  const Interval interval = bootstrap_typical(samples, strata, 400, seed);
   stats.median_lo = interval.lo;
   stats.median_hi = interval.hi;
   return stats;

@@ -14,15 +14,20 @@ namespace volumark {
 double percentile(std::vector<double> samples, double p);
 double median(std::vector<double> samples);
 
+// The figure of a cell: the mean over the strata (its views) of each stratum's median. `strata`: empty, or one a
+// sample; of one stratum it is the plain median. Throws std::invalid_argument for no samples, or not one stratum a
+// sample.
+double typical(std::span<const double> samples, std::span<const int64_t> strata = {});
+
 struct Interval {
   double lo = 0, hi = 0;
 };
-// 95 % percentile-bootstrap interval of the median. `strata` (empty, or one a sample): samples are drawn anew within
-// each stratum only, since which views were measured is not chance. Throws std::invalid_argument for no samples.
-Interval bootstrap_median(std::span<const double> samples, std::span<const int64_t> strata = {}, int resamples = 400,
-                          uint64_t seed = 1);
+// 95 % percentile-bootstrap interval of typical(): samples are drawn anew within each stratum only, since which views
+// were measured is not chance. Throws as typical().
+Interval bootstrap_typical(std::span<const double> samples, std::span<const int64_t> strata = {}, int resamples = 400,
+                           uint64_t seed = 1);
 
-// All of Stats; zero count for no samples.
+// All of Stats: median is typical(), with its interval; zero count for no samples.
 Stats stats_of(std::span<const double> samples, std::span<const int64_t> strata = {}, uint64_t seed = 1);
 
 struct OrderFit {

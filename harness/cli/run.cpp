@@ -14,7 +14,7 @@ namespace {
 struct RunArguments {
   RunOptions options;
   std::string out;
-  std::vector<std::string> only;
+  std::vector<std::string> only, sweeps;
   bool no_images = false;
 };
 
@@ -27,6 +27,7 @@ extern "C" void on_signal(int) {
 int run(const RunArguments& arguments, const Globals& globals) {
   RunOptions options = arguments.options;
   for (const std::string& text : arguments.only) options.filter.only.push_back(split_assignment(text));
+  for (const std::string& text : arguments.sweeps) options.sweeps.push_back(parse_sweep(text));
   for (const std::string& backend : options.filter.backends) check_backend_name(backend);
   options.out = arguments.out.empty() ? "out/" + std::filesystem::path(options.experiments.front()).stem().string()
                                       : arguments.out;
@@ -67,6 +68,11 @@ void add_run(CLI::App& app, const Globals& globals, Action& action) {
   command->add_option("--scene", options.filter.scenes, "only these scenes")->delimiter(',');
   command->add_option("--method,-m", options.filter.methods, "only these methods")->delimiter(',');
   command->add_option("--only", arguments->only, "only cells with this parameter: name=value")->take_all();
+  command
+      ->add_option("--sweep", arguments->sweeps,
+                   "name=a,b,c or name=from..to*factor: of the quality axis instead of the experiment's values, of any "
+                   "other parameter each value a series of its own")
+      ->take_all();
   command->add_flag("--no-images", arguments->no_images, "keep no pictures");
   command->footer("Example: volumark run quick --backend cpu --out out/quick");
   command->callback(

@@ -34,7 +34,7 @@ TEST(Bootstrap, CoversTheTrueMedianAboutAsOftenAsItSays) {
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<double> samples(30);
     for (double& sample : samples) sample = noise(random);
-    const Interval interval = bootstrap_median(samples, {}, 400, static_cast<uint64_t>(trial));
+    const Interval interval = bootstrap_typical(samples, {}, 400, static_cast<uint64_t>(trial));
     covered += interval.lo <= 10 && 10 <= interval.hi;
   }
   EXPECT_GE(covered, kTrials * 88 / 100);
@@ -45,17 +45,39 @@ TEST(Bootstrap, ViewsOfDifferentCostAreNoNoise) {
   // Two views, each perfectly steady: the median of the cell is certain, however far apart they are.
   const std::vector<double> samples = {1, 5, 1, 5, 1, 5, 1, 5};
   const std::vector<int64_t> views = {0, 1, 0, 1, 0, 1, 0, 1};
-  const Interval certain = bootstrap_median(samples, views);
+  const Interval certain = bootstrap_typical(samples, views);
   EXPECT_EQ(certain.lo, 3);
   EXPECT_EQ(certain.hi, 3);
-  EXPECT_LT(bootstrap_median(samples).lo, 3);
+  EXPECT_LT(bootstrap_typical(samples).lo, 3);
+}
+
+TEST(Typical, IsTheMeanOfTheViewsMedians) {
+  // By hand: medians 2 (of 1, 2, 9) and 30 (of 10, 30, 50, and 30), so 16; the pooled median would be 10.
+  const std::vector<double> samples = {1, 10, 2, 30, 9, 50, 30};
+  const std::vector<int64_t> views = {0, 4, 0, 4, 0, 4, 4};
+  EXPECT_EQ(typical(samples, views), 16);
+  EXPECT_EQ(typical(samples), 10);
+  EXPECT_EQ(stats_of(samples, views).median, 16);
+  // Every figure that can be drawn anew: a median of the first view is 1, 2 or 9, one of the second at most 50.
+  const Interval interval = bootstrap_typical(samples, views);
+  EXPECT_GE(interval.lo, (1 + 10) / 2.0);
+  EXPECT_LE(interval.hi, (9 + 50) / 2.0);
+  EXPECT_LE(interval.lo, 16);
+  EXPECT_GE(interval.hi, 16);
+}
+
+TEST(Bootstrap, OfTwoSamplesAsCountedByHand) {
+  // Drawn anew, two samples 1 and 3 have the median 1, 2, 2 or 3 with equal chance: 95 % reach from 1 to 3.
+  const Interval interval = bootstrap_typical(std::vector<double>{1, 3});
+  EXPECT_EQ(interval.lo, 1);
+  EXPECT_EQ(interval.hi, 3);
 }
 
 TEST(Bootstrap, IsRepeatable) {
   const std::vector<double> samples = {1, 2, 3, 4, 5, 6, 7};
-  EXPECT_EQ(bootstrap_median(samples).lo, bootstrap_median(samples).lo);
-  EXPECT_THROW(bootstrap_median({}), std::invalid_argument);
-  EXPECT_THROW(bootstrap_median(samples, std::vector<int64_t>{1}), std::invalid_argument);
+  EXPECT_EQ(bootstrap_typical(samples).lo, bootstrap_typical(samples).lo);
+  EXPECT_THROW(bootstrap_typical({}), std::invalid_argument);
+  EXPECT_THROW(bootstrap_typical(samples, std::vector<int64_t>{1}), std::invalid_argument);
 }
 
 TEST(Stats, OfSamples) {
