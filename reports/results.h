@@ -291,7 +291,7 @@ struct AttributionPart {
   std::string aspect;  // "target format", "volume texture", "step", ...
   std::string parameter;
   ParamValue from, to;
-  double error = 0;    // RMSE, worst view, with this one made ideal
+  double error = 0;    // RMSE, worst view, with this one made ideal; NaN: it could not be drawn, `note` says why
   double worth = 0;    // error^2 that it takes away, as a share of the cell's error^2; below 0: the error grew (two
                        // errors had cancelled)
   double seconds = 0;  // frame time with it made ideal: what the gain costs; 0: not measured
@@ -304,6 +304,7 @@ struct Attribution {
   double all_ideal = 0;  // RMSE with every part made ideal at once: what is left is the method's own, or the bound
   double bound = 0;      // of the reference
   std::vector<AttributionPart> parts;  // largest worth first
+  std::string note;                    // why there is no all_ideal, or there are no parts
   std::string command;
 };
 

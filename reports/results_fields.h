@@ -372,6 +372,7 @@ void fields(A& a, Attribution& v) {
   a.field("all_ideal", v.all_ideal);
   a.field("bound", v.bound);
   a.field("parts", v.parts);
+  a.later("note", v.note);
   a.field("command", v.command);
 }
 
