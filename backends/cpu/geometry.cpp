@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "backends/defects.h"
+
 namespace volumark {
 namespace {
 
@@ -155,7 +157,7 @@ Edge make_edge(const WindowVertex& p, const WindowVertex& q) {
   const bool top_left = dy < 0 || (dy == 0 && dx > 0);
   // At sub-pixel (x, y): dx (y - p.y) - dy (x - p.x); centres lie at 256 i + 128. Dividing by 256 and rounding down
   // keeps the sign at every centre.
-  const int64_t at_origin = dx * (128 - p.sy) - dy * (128 - p.sx) - (top_left ? 0 : 1);
+  const int64_t at_origin = dx * (128 - p.sy) - dy * (128 - p.sx) - (top_left || defect(Defect::DoubledEdge) ? 0 : 1);
   return {static_cast<int32_t>(-dy), static_cast<int32_t>(dx), at_origin >> kSubPixelBits};
 }
 

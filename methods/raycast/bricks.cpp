@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "backends/defects.h"
 #include "methods/volume/volume_resources.h"
 
 namespace volumark {
@@ -35,6 +36,7 @@ void reduce_row(const T* row, int samples, int edge, std::vector<Range>& out) {
 // The bricks along one axis whose sample range holds sample `i`: one, or two where it lies on their shared face.
 std::pair<int, int> bricks_of_sample(int i, int edge, int count) {
   const int own = std::min(i / edge, count - 1);
+  if (defect(Defect::BricksMissNeighbours)) return {own, own};
   return {i > 0 && i % edge == 0 && i / edge <= count - 1 ? own - 1 : own, own};
 }
 

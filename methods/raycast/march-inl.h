@@ -64,7 +64,8 @@ struct Walk {
     stride = {take(rays.stride[0]), take(rays.stride[1]), take(rays.stride[2])};
     steps = take(rays.steps);
     count = hn::Ceil(steps);
-    const Floats3 cells = splat3(b.vm.size) - Floats3{one, one, one};
+    const Floats extra = splat(defect(Defect::MiscountedCells) ? 2.F : 1.F);
+    const Floats3 cells = splat3(b.vm.size) - Floats3{extra, extra, extra};
     cell_entry = entry * cells;
     cell_stride = stride * cells;
     brick_entry = scaled(cell_entry, splat(b.bricks_per_cell()));
@@ -203,7 +204,8 @@ HWY_INLINE void blend_under(const RaycastBindings& b, const Walk& walk, const Rg
   sum.g = hn::MulAdd(rest, segment.g, sum.g);
   sum.b = hn::MulAdd(rest, segment.b, sum.b);
   sum.a = hn::MulAdd(rest, segment.a, sum.a);
-  k = hn::IfThenElse(hn::Lt(hn::Sub(one, sum.a), splat(b.early_termination())), walk.count, k);
+  const Floats left = defect(Defect::TerminatesOnOpacity) ? sum.a : hn::Sub(one, sum.a);
+  k = hn::IfThenElse(hn::Lt(left, splat(b.early_termination())), walk.count, k);
 }
 
 template <bool lit, class Volume>
@@ -222,7 +224,8 @@ HWY_INLINE Rgba march_samples(const RaycastBindings& b, const Volume& volume, co
     const Floats s = volume(along(walk.cell_entry, middle, walk.cell_stride));
     const auto seen = hn::And(active, hn::And(hn::Gt(s, lo), hn::Lt(s, hi)));
     if (hn::AllFalse(d, seen)) continue;
-    const Floats part = hn::Max(hn::Min(hn::Sub(walk.steps, k), one), zero);
+    const Floats part =
+        defect(Defect::UnclippedLastSegment) ? one : hn::Max(hn::Min(hn::Sub(walk.steps, k), one), zero);
     const Rgba segment = shade_segment<false, lit>(b, transfer(b, s), hn::Mul(part, splat(b.vm.depth[3])),
                                                    along(walk.entry, middle, walk.stride));
     blend_under(b, walk, segment, seen, sum, k);

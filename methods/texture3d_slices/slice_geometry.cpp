@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
+#include "backends/defects.h"
+
 namespace volumark {
 namespace {
 
@@ -143,6 +145,7 @@ Body visible_body(const glm::dvec3& extent, const ViewRays& rays, const std::vec
     return a.first != b.first ? before(a.first, b.first) : before(a.second, b.second);
   });
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  if (defect(Defect::MissingEdge) && !ends.empty()) ends.pop_back();
   Body body;
   for (const auto& [a, b] : ends) {
     const double za = depth(a), zb = depth(b);
@@ -162,6 +165,7 @@ Slabs slabs_of(const Body& body, double step) {
   Slabs slabs{body.z_first, step, 0};
   // A last slab thinner than a billionth of a step is rounding.
   if (!body.edges.empty()) slabs.count = static_cast<int>(std::ceil((body.z_last - body.z_first) / step - 1e-9));
+  if (defect(Defect::DroppedLastSlab)) slabs.count = std::max(slabs.count - 1, 0);
   return slabs;
 }
 
@@ -200,7 +204,9 @@ void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& exte
   mesh.slices = slabs.count;
   mesh.polygons = 0;
   for (int i = 0; i < slabs.count; ++i) {
-    const double middle = slabs.middle(front_to_back ? i : slabs.count - 1 - i);
+    if (defect(Defect::LostSlice) && i == slabs.count / 2) continue;
+    const int turn = defect(Defect::SwappedSlices) && (i ^ 1) < slabs.count ? i ^ 1 : i;
+    const double middle = slabs.middle(front_to_back ? turn : slabs.count - 1 - turn);
     const double reach = whole_slabs ? 0.5 * slabs.step : 0;
     const std::vector<glm::dvec2> hull = hull_of_slab(body, rays, middle - reach, middle + reach, margin);
     if (hull.size() < 3) continue;

@@ -48,7 +48,8 @@ HWY_INLINE FloatMask inside(const VolumeUniforms& vm, const Floats3& box, const 
   const Floats half = splat(.5F);
   const auto within = [&](Floats p, Floats d)
                           HWY_ATTR { return hn::Le(hn::MulAdd(hn::Abs(d), reach, hn::Abs(hn::Sub(p, half))), half); };
-  FloatMask in = hn::And(within(box.x, direction.x), hn::And(within(box.y, direction.y), within(box.z, direction.z)));
+  FloatMask in = hn::And(within(box.x, direction.x), within(box.y, direction.y));
+  if (!defect(Defect::MissingFace)) in = hn::And(in, within(box.z, direction.z));
   for (int i = 0; i < static_cast<int>(vm.counts[1]); ++i) {
     const Floats3 normal = splat3(vm.clip_planes[i]);
     const Floats nearest = hn::NegMulAdd(hn::Abs(dot(normal, direction)), reach, dot(normal, box));

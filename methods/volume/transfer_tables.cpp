@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "backends/defects.h"
 #include "methods/volume/volume_resources.h"
 
 namespace volumark {
@@ -29,7 +30,10 @@ struct Piece {
 using Interval = std::vector<Piece>;
 
 // -expm1(-x) / x for x >= 0.
-double opacity_ratio(double x) { return x > 0 ? -std::expm1(-x) / x : 1; }
+double opacity_ratio(double x) {
+  if (defect(Defect::CancellingSelfAttenuation) && x > 0) return (1 - std::exp(-static_cast<float>(x))) / x;
+  return x > 0 ? -std::expm1(-x) / x : 1;
+}
 
 // Light from `length` of a piece whose optical depth is small: Gauss-Legendre, five nodes.
 Stretch integrate_small(const glm::dvec4& first, const glm::dvec4& last, double length) {
@@ -116,7 +120,9 @@ std::vector<float> transfer_table(const TransferFunction& transfer, int nodes) {
   const int count = nodes - 1;
   std::vector<glm::dvec4> values;
   values.reserve(static_cast<size_t>(nodes));
-  for (int i = 0; i < nodes; ++i) values.push_back(transfer.at(transfer.lo + (transfer.hi - transfer.lo) * i / count));
+  const double shift = defect(Defect::ShiftedTable) ? 0.5 : 0;
+  for (int i = 0; i < nodes; ++i)
+    values.push_back(transfer.at(transfer.lo + (transfer.hi - transfer.lo) * (i + shift) / count));
   // A jump inside an interval becomes a ramp over it. The nearer of its two nodes is moved so that the integral over
   // the table stays that of the jump: it then errs in width, not in place.
   for (size_t p = 0; p + 1 < transfer.points.size(); ++p) {

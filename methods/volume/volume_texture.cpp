@@ -4,6 +4,7 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 
+#include "backends/defects.h"
 #include "methods/volume/volume_resources.h"
 
 namespace volumark {
@@ -138,7 +139,7 @@ void VolumeResources::create_classified_volume(const Scene& scene, const VolumeS
     const glm::dvec4 point =
         scene.transfer.at(std::clamp(stored * volume.slope + volume.intercept, scene.transfer.lo, scene.transfer.hi));
     const double opacity = -std::expm1(-point.a * voxel);
-    return glm::dvec4(glm::dvec3(point) * opacity, opacity);
+    return glm::dvec4(glm::dvec3(point) * (defect(Defect::UnassociatedColours) ? 1 : opacity), opacity);
   };
   std::vector<std::byte> texels(voxel_count(volume) * texel_bytes(format));
   const auto store = [&](size_t i, const glm::dvec4& colour) {

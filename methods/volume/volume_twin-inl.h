@@ -2,6 +2,7 @@
 // foreach_target file after backends/cpu/sample-inl.h. Lanes where a result has no meaning (outside of a batch, empty
 // segments) hold finite values.
 #include "backends/cpu/sample-inl.h"
+#include "backends/defects.h"
 #include "methods/volume/volume_uniforms.h"
 
 #if defined(VOLUMARK_METHODS_VOLUME_TWIN_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -62,6 +63,7 @@ HWY_INLINE Floats3 ray_direction(const VolumeUniforms& vm, Floats x, Floats y) {
   return along(along(splat3(vm.ray_direction), x, splat3(vm.ray_direction_x)), y, splat3(vm.ray_direction_y));
 }
 HWY_INLINE Floats ray_length(const VolumeUniforms& vm, const Floats3& direction) {
+  if (defect(Defect::RayLengthIgnored)) return splat(1.F);
   const Floats3 world = direction * splat3(vm.extent);
   return hn::Sqrt(dot(world, world));
 }
@@ -75,14 +77,15 @@ HWY_INLINE void clip_half_space(Floats o, Floats d, Floats& z0, Floats& z1) {
   const Floats z = hn::Div(hn::Neg(o), hn::IfThenElse(parallel, splat(1.F), d));
   z0 = hn::IfThenElse(enters, hn::Max(z0, z), z0);
   z1 = hn::IfThenElse(leaves, hn::Min(z1, z), z1);
-  z1 = hn::IfThenElse(hn::And(parallel, hn::Lt(o, zero)), z0, z1);
+  const auto outside = defect(Defect::FlippedParallel) ? hn::Ge(o, zero) : hn::Lt(o, zero);
+  z1 = hn::IfThenElse(hn::And(parallel, outside), z0, z1);
 }
 
 template <bool clip_planes>
 HWY_INLINE void clip_ray(const VolumeUniforms& vm, const Floats3& origin, const Floats3& direction, Floats& z0,
                          Floats& z1) {
   const auto clip_axis = [&](Floats o, Floats d) HWY_ATTR {
-    const Floats tiny = splat(1e-20F), half = splat(.5F);
+    const Floats tiny = splat(defect(Defect::UnguardedDivision) ? 0.F : 1e-20F), half = splat(.5F);
     const Floats inverse = hn::Div(splat(1.F), hn::IfThenElse(hn::Lt(hn::Abs(d), tiny), tiny, d));
     const Floats middle = hn::Mul(hn::Sub(half, o), inverse), reach = hn::Abs(hn::Mul(half, inverse));
     z0 = hn::Max(z0, hn::Sub(middle, reach));
@@ -157,6 +160,7 @@ HWY_INLINE Rgba transfer_segment(const VolumeBindings& b, Floats front, Floats b
 template <bool linear_opacity>
 HWY_INLINE Floats opacity_of(Floats x) {
   if constexpr (linear_opacity) return hn::Min(x, splat(1.F));
+  if (defect(Defect::LinearOpacity)) return hn::Min(x, splat(1.F));
   const IntTag di;
   const Floats one = splat(1.F);
   const Floats y = hn::Min(x, splat(80.F));
@@ -168,6 +172,7 @@ HWY_INLINE Floats opacity_of(Floats x) {
   const Floats high = hn::MulAdd(splat(1.F / 5040), r2, hn::MulAdd(splat(1.F / 720), r, splat(1.F / 120)));
   const Floats e = hn::Mul(hn::MulAdd(hn::Mul(r2, r2), high, low), r);
   const Floats p = hn::BitCast(FloatTag(), hn::ShiftLeft<23>(hn::Sub(hn::Set(di, 127), truncate(k))));
+  if (defect(Defect::NaiveExponential)) return hn::Sub(one, hn::MulAdd(p, e, p));
   return hn::NegMulAdd(p, e, hn::Sub(one, p));
 }
 
@@ -285,6 +290,7 @@ HWY_INLINE Rgba shade_classified(const VolumeBindings& b, const Rgba& voxel, Flo
   const auto seen = hn::Gt(voxel.a, zero);
   const Floats alpha =
       hn::IfThenElseZero(seen, correct_opacity<linear_opacity>(voxel.a, hn::Mul(len, splat(b.vm.size[3]))));
+  if (defect(Defect::UnassociatedColours)) return with_alpha(scaled(colour_of(voxel), alpha), alpha);
   const Floats weight = hn::IfThenElseZero(seen, hn::Div(alpha, hn::IfThenElse(seen, voxel.a, splat(1.F))));
   return with_alpha(scaled(colour_of(voxel), weight), alpha);
 }

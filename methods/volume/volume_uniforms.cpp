@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "backends/defects.h"
+
 namespace volumark {
 namespace {
 
@@ -19,7 +21,10 @@ struct LocalFrame {
   explicit LocalFrame(const Volume& volume)
       : middle(volume.origin + volume.axes * (volume.spacing * glm::dvec3(volume.size - 1) * 0.5)),
         to_local(glm::transpose(volume.axes)) {}
-  glm::dvec3 point(const glm::dvec3& world) const { return to_local * (world - middle); }
+  glm::dvec3 point(const glm::dvec3& world) const {
+    if (defect(Defect::PlacedInFloat)) return to_local * glm::dvec3(glm::vec3(world) - glm::vec3(middle));
+    return to_local * (world - middle);
+  }
   glm::dvec3 vector(const glm::dvec3& world) const { return to_local * world; }
 };
 
@@ -105,13 +110,14 @@ VolumeUniforms volume_uniforms(const Scene& scene, const View& view, int width, 
   uniforms.ray_direction = float4(rays.direction / extent);
   uniforms.ray_direction_x = float4(rays.direction_x / extent);
   uniforms.ray_direction_y = float4(rays.direction_y / extent);
-  uniforms.depth = {static_cast<float>(rays.z_near), 0, 0, 0};
+  uniforms.depth = {static_cast<float>(defect(Defect::NearPlaneIgnored) ? -1e30 : rays.z_near), 0, 0, 0};
   uniforms.extent = float4(extent, smallest);
   uniforms.size = float4(size, 1 / smallest);
   uniforms.texture_scale = float4((size - 1.) / size);
-  uniforms.texture_offset = float4(0.5 / size);
+  uniforms.texture_offset = float4((defect(Defect::HalfVoxelShift) ? 0 : 0.5) / size);
   uniforms.texel = float4(1. / size);
-  uniforms.gradient_scale = float4(smallest / volume.spacing);
+  uniforms.gradient_scale =
+      float4(smallest / (defect(Defect::IsotropicGradients) ? glm::dvec3(smallest) : volume.spacing));
   if (scene.effects.lighting) {
     // Gradients in the program are differences over two smallest spacings, in widths of the window.
     uniforms.gradient_scale[3] = static_cast<float>(2 * scene.effects.lighting->gradient_floor);

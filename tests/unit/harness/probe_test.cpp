@@ -139,7 +139,8 @@ TEST_F(ProbeTest, MethodWithoutClipPlanesIsRefused) {
 }
 
 TEST_F(ProbeTest, JsonHasWhatTheTableHas) {
-  const Probe result = run({subject("texture3d_slices", {{"opacity_correction", "linear"}}), {"reference"}});
+  const Probe result =
+      run({subject("texture3d_slices", {{"step", "16"}, {"opacity_correction", "linear"}}), {"reference"}});
   const ProbeHeading heading{"slab", "cpu", 0, "volumark probe slab"};
   const auto json = nlohmann::json::parse(probe_json(result, heading));
   EXPECT_EQ(json["ray"].size(), 9U);
