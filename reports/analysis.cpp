@@ -18,7 +18,7 @@ double error_value(const ErrorMetrics& errors, const std::string& metric) {
   throw ResultsError("unknown error metric '" + metric + "'");
 }
 
-bool shows_nothing(const Result& result) {
+bool a_view_shows_nothing(const Result& result) {
   return std::any_of(result.views.begin(), result.views.end(),
                      [](const ViewResult& view) { return view.shows_nothing; });
 }
@@ -28,7 +28,7 @@ namespace {
 bool is_ranked(const Result& result) {
   const bool drawn = result.outcome == Outcome::Ok || result.outcome == Outcome::WrongImage;
   return drawn && result.metrics && result.error && result.key.variant.empty() && result.ignored_effects.empty() &&
-         !shows_nothing(result);
+         !a_view_shows_nothing(result);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ struct CostPoint {
 double error_value(const ErrorMetrics& errors, const std::string& metric);
 
 // A view's reference shows the background alone.
-bool shows_nothing(const Result& result);
+bool a_view_shows_nothing(const Result& result);
 
 // The point of one cell (frame_wall, or frame_cpu; worst view's error); nothing where it has no time or no error, or is
 // not ranked.

@@ -125,7 +125,7 @@ TEST(CostPoint, AViewThatShowsNothingIsNotPraised) {
   Results results = sample_results();
   EXPECT_TRUE(cost_point(results, 0, "rmse"));
   results.results[0].views[0].shows_nothing = true;
-  EXPECT_TRUE(shows_nothing(results.results[0]));
+  EXPECT_TRUE(a_view_shows_nothing(results.results[0]));
   EXPECT_FALSE(cost_point(results, 0, "rmse"));
 }
 
