@@ -8,12 +8,19 @@
 // perspective and orthographic views alike. A stretch dz of the ray is ray_length(direction) * dz world units long.
 //
 // A program that includes this text declares bindings 0..3 and constants 0..5; its own start at binding 4, constant 6.
+// Effects. A constant of 0 removes what simulates an effect; VM_WITHOUT_LIGHTING and VM_WITHOUT_CLIP_PLANES, defined in
+// front of this text, remove its words too: what is compiled then must be the same, and a test compares.
+// Period arithmetic (fixed_point) is no branch of these programs but programs of its own: fixed_point.glsl.
 VM_SPEC(0, VM_CLASSIFICATION, 0)  // 0 post, 1 pre, 2 pre-integrated
 VM_SPEC(1, VM_LINEAR_OPACITY, 0)  // 1: alpha = min(tau d, 1) instead of 1 - exp(-tau d)
+#ifndef VM_WITHOUT_LIGHTING
 VM_SPEC(2, VM_LIGHTS, 0)          // number of lights; 0: no lighting is simulated
 VM_SPEC(3, VM_SPECULAR, 0)        // 1: the specular term is not zero
 VM_SPEC(4, VM_TWO_SIDED, 0)
+#endif
+#ifndef VM_WITHOUT_CLIP_PLANES
 VM_SPEC(5, VM_CLIP_PLANES, 0)     // number of clip planes
+#endif
 
 struct VolumeLight {
   vec4 vector;  // local frame; w = 0: unit direction towards the light, w = 1: position
@@ -61,6 +68,7 @@ void clip_ray(vec3 origin, vec3 direction, inout float z0, inout float z1) {
   vec3 enter = middle - reach, leave = middle + reach;
   z0 = max(max(z0, enter.x), max(enter.y, enter.z));
   z1 = min(min(z1, leave.x), min(leave.y, leave.z));
+#ifndef VM_WITHOUT_CLIP_PLANES
   for (int i = 0; i < VM_CLIP_PLANES; ++i) {
     float o = dot(vm.clip_planes[i].xyz, origin) - vm.clip_planes[i].w;
     float d = dot(vm.clip_planes[i].xyz, direction);
@@ -72,6 +80,7 @@ void clip_ray(vec3 origin, vec3 direction, inout float z0, inout float z1) {
       z1 = min(z1, -o / d);
     }
   }
+#endif
 }
 
 // ---- Sampling ----
@@ -82,6 +91,7 @@ float sample_at(vec3 position) { return (textureLod(volume_texture, position, 0.
 float sample_value(vec3 box) { return sample_at(texture_position(box)); }
 vec4 sample_classified(vec3 box) { return textureLod(volume_texture, texture_position(box), 0.); }
 
+#ifndef VM_WITHOUT_LIGHTING
 // Central differences one sample apart, clamped at the border: equal to interpolating the stored gradient of
 // scenes/scene.h. Change of s_n per two smallest spacings, local frame.
 vec3 sample_gradient(vec3 box) {
@@ -91,6 +101,7 @@ vec3 sample_gradient(vec3 box) {
   vec3 before = vec3(sample_at(p - vec3(e.x, 0., 0.)), sample_at(p - vec3(0., e.y, 0.)), sample_at(p - vec3(0., 0., e.z)));
   return (after - before) * vm.gradient_scale.xyz;
 }
+#endif
 
 // ---- Classification ----
 // (r, g, b, tau) at s_n, by interpolation between table nodes with full float weights on every GPU.
@@ -132,6 +143,7 @@ float correct_opacity(float a, float ratio) {
 }
 
 // ---- Lighting (scenes/scene.h) ----
+#ifndef VM_WITHOUT_LIGHTING
 // What the colour is multiplied by (diffuse) and what is added to it (specular) at a sample.
 void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
   diffuse = vec3(vm.lighting.x);
@@ -155,18 +167,21 @@ void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
     }
   }
 }
+#endif
 
 // ---- A segment of a ray: premultiplied colour and opacity ----
 // Of constant colour and extinction (r, g, b, tau), `len` world units long, lit at `box`.
 vec4 shade_segment(vec4 point, float len, vec3 box) {
   float alpha = opacity_of(point.a * len);
   vec3 colour = point.rgb;
+#ifndef VM_WITHOUT_LIGHTING
   if (VM_LIGHTS > 0) {
     if (alpha <= 0.) return vec4(0.);
     vec3 diffuse, specular;
     light_sample(box, diffuse, specular);
     colour = colour * diffuse + specular;
   }
+#endif
   return vec4(colour * alpha, alpha);
 }
 
@@ -175,12 +190,14 @@ vec4 shade_preintegrated(vec4 mean, float len, vec3 box) {
   float x = mean.a * len;
   float alpha = opacity_of(x);
   vec3 colour = mean.rgb * (x > 1e-30 ? alpha / mean.a : len);
+#ifndef VM_WITHOUT_LIGHTING
   if (VM_LIGHTS > 0) {
     if (alpha <= 0.) return vec4(0.);
     vec3 diffuse, specular;
     light_sample(box, diffuse, specular);
     colour = colour * diffuse + specular * alpha;
   }
+#endif
   return vec4(colour, alpha);
 }
 
