@@ -28,7 +28,8 @@ namespace {
 bool is_ranked(const Result& result) {
   const bool drawn = result.outcome == Outcome::Ok || result.outcome == Outcome::WrongImage;
   return drawn && result.metrics && result.error && result.key.variant.empty() && result.ignored_effects.empty() &&
-         !a_view_shows_nothing(result);
+         !std::all_of(result.views.begin(), result.views.end(),
+                      [](const ViewResult& view) { return view.shows_nothing; });
 }
 
 }  // namespace
@@ -44,6 +45,7 @@ std::optional<CostPoint> cost_point(const Results& results, size_t index, const 
   const bool on_pixels = error_metric == "rmse" || error_metric == "max" || error_metric == "mae";
   double largest_bound = 0, lo = error, hi = error;
   for (const ViewResult& view : result.views) {
+    if (view.shows_nothing) continue;
     const double bound = on_pixels && view.reference ? view.reference->bound : 0;
     largest_bound = std::max(largest_bound, bound);
     const double of_view = view.error ? error_value(*view.error, error_metric) : error;

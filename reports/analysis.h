@@ -1,7 +1,7 @@
 // What follows from the cells of a results file, for tables and report: what accuracy costs in time.
 // Only outcomes ok and wrong_image have both a time and an error; a cell whose error is below its reference's bound
-// counts with the bound. A cell with a view that shows nothing is never ranked: there every method has no error. Nor is
-// one with effects switched against its scene's list: it has another picture.
+// counts with the bound. Views that show nothing have no say in errors (there every method is right), and a cell
+// without any other is never ranked. Nor is one with effects switched against its scene's list: it has another picture.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,7 @@ struct CostPoint {
 // magnitude), "ciede2000_p99", "dssim" (1 - SSIM). Throws ResultsError for another name.
 double error_value(const ErrorMetrics& errors, const std::string& metric);
 
-// A view's reference shows the background alone.
+// The reference of one of its views shows the background alone.
 bool a_view_shows_nothing(const Result& result);
 
 // The point of one cell (frame_wall, or frame_cpu; worst view's error); nothing where it has no time or no error, or is

@@ -121,11 +121,16 @@ TEST(CostPoint, TheErrorsRangeIsThatOfTheViewsWidenedByTheBound) {
   EXPECT_DOUBLE_EQ(flip.error_hi, 0.3);
 }
 
-TEST(CostPoint, AViewThatShowsNothingIsNotPraised) {
+TEST(CostPoint, ViewsThatShowNothingArePraisedForNothing) {
   Results results = sample_results();
+  Result& cell = results.results[0];
   EXPECT_TRUE(cost_point(results, 0, "rmse"));
-  results.results[0].views[0].shows_nothing = true;
-  EXPECT_TRUE(a_view_shows_nothing(results.results[0]));
+  cell.views.push_back(cell.views[0]);
+  cell.views[1].error->rmse = 0;
+  cell.views[1].shows_nothing = true;
+  EXPECT_TRUE(a_view_shows_nothing(cell));
+  EXPECT_GT(cost_point(results, 0, "rmse")->error_lo, 0.009);  // of the other view
+  cell.views[0].shows_nothing = true;
   EXPECT_FALSE(cost_point(results, 0, "rmse"));
 }
 
