@@ -12,6 +12,8 @@
 
 #include "harness/convergence.h"
 #include "harness/environment.h"
+#include "harness/filter_levels.h"
+#include "harness/follow_up.h"
 #include "harness/metrics/metrics.h"
 #include "harness/progress.h"
 #include "harness/run_folder.h"
@@ -115,6 +117,7 @@ class Runner {
   std::vector<Group> groups_;
   RunFolder folder_;
   PictureStore store_;
+  FollowUp* follow_up_ = nullptr;  // of the scene that is being run
   RunOutcome out_;
 };
 
@@ -230,7 +233,12 @@ void Runner::describe() {
 void Runner::note_backend(const BackendInfo& info) {
   for (const BackendResultInfo& known : out_.results.backends)
     if (known.id == info.id) return;
-  out_.results.backends.push_back(backend_result_info(info));
+  BackendResultInfo& added = out_.results.backends.emplace_back(backend_result_info(info));
+  try {
+    Device device = make_device(info.id, options_.cell.device);
+    added.filter_levels = measure_filter_levels(device);
+  } catch (const DeviceError&) {  // it can draw cells all the same: the figure stays unknown
+  }
 }
 
 bool Runner::done_before(const Cell& cell, const Group& group, const SceneContext& context) {
@@ -295,6 +303,7 @@ void Runner::measure(const Group& group, const std::vector<size_t>& cells, const
     if (open[k]->backend()) note_backend(*open[k]->backend());
     open[k].reset();
     keep(std::move(result), group, group.cells[cells[k]], progress);
+    follow_up_->measured(group.cells[cells[k]], images[cells[k]]);
   }
 }
 
@@ -372,7 +381,9 @@ void Runner::compare_backends(const Group& group, const SceneContext& context,
 void Runner::run_scene(size_t begin, size_t end, Progress& progress) {
   const Group& group = groups_[begin];
   SceneContext context = make_context(*group.experiment, group.scene, options_.data);
-  bool all_before = options_.resume;
+  FollowUp follow_up(std::span(groups_).subspan(begin, end - begin), experiments_, out_.results);
+  follow_up_ = &follow_up;
+  bool all_before = options_.resume && follow_up.complete();
   for (size_t i = begin; i < end && all_before; ++i)
     for (const Cell& cell : groups_[i].cells) all_before = all_before && done_before(cell, groups_[i], context);
   if (all_before) {
@@ -392,6 +403,8 @@ void Runner::run_scene(size_t begin, size_t end, Progress& progress) {
   std::iota(order.begin(), order.end(), begin);
   std::shuffle(order.begin(), order.end(), std::mt19937_64(kSeed));
   for (const size_t i : order) run_group(groups_[i], context, progress);
+  follow_up.run(context, options_.cell, progress);
+  folder_.save(out_.results, false);
 }
 
 // Results in the order of the plan, whatever the order they were measured in; those of no cell of the plan come last.
@@ -451,6 +464,7 @@ RunOutcome Runner::run() {
   }
   sort_results();
   fit_convergence(out_.results, experiments_);
+  explain_floors(out_.results);
   out_.results.run.interrupted = out_.interrupted;
   if (!out_.interrupted) out_.results.run.finished_at = utc_now();
   out_.results.machine.load_after = load_average();
