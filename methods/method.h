@@ -57,8 +57,20 @@ class Method {
   virtual Format target_format(const Values& values) const = 0;
 };
 
+// Why this cell cannot be drawn; nothing where it can. "effect NAME: why" where it could be without that effect.
 std::optional<std::string> unsupported_reason(const Method& method, const Scene& scene, const Values& values,
                                               const BackendInfo& backend);
+
+// The effects that `method` simulates in no scene, of those that are called for: known before data, references or a
+// Device are there.
+std::vector<std::string> missing_effects(const Method& method, const Effects& effects);
+// The part of unsupported_reason() that follows from missing_effects().
+std::optional<std::string> missing_effect_reason(const Method& method, const Effects& effects);
+
+// The effects that must be left out so that this cell can be drawn. Where leaving out effects does not help, those of
+// missing_effects() alone.
+std::vector<std::string> effects_to_ignore(const Method& method, const Scene& scene, const Values& values,
+                                           const BackendInfo& backend);
 
 // The one list of methods (methods/methods.cpp). Throws ParameterError for an unknown name, with the nearest one.
 std::span<const Method* const> method_list();

@@ -25,15 +25,56 @@ const Method& find_method(const std::string& name) {
       fmt::format("unknown method \"{}\"{}; known: {}", name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
+std::vector<std::string> missing_effects(const Method& method, const Effects& effects) {
+  const std::vector<std::string>& simulated = method.info().effects;
+  std::vector<std::string> out;
+  for (const std::string& effect : effect_names(effects))
+    if (std::find(simulated.begin(), simulated.end(), effect) == simulated.end()) out.push_back(effect);
+  return out;
+}
+
+std::optional<std::string> missing_effect_reason(const Method& method, const Effects& effects) {
+  const std::vector<std::string> missing = missing_effects(method, effects);
+  if (missing.empty()) return std::nullopt;
+  return fmt::format("effect {}: {} does not simulate it", missing.front(), method.info().name);
+}
+
+namespace {
+
+// The first effect without which the method would not refuse the cell; empty: no single one is to blame.
+std::string refused_effect(const Method& method, const Scene& scene, const Values& values, const BackendInfo& backend) {
+  for (const std::string& effect : effect_names(scene.effects)) {
+    Scene other = scene;
+    other.effects = without_effect(scene.effects, effect);
+    if (!method.unsupported(other, values, backend)) return effect;
+  }
+  return {};
+}
+
+}  // namespace
+
 std::optional<std::string> unsupported_reason(const Method& method, const Scene& scene, const Values& values,
                                               const BackendInfo& backend) {
-  const MethodInfo& info = method.info();
-  for (const std::string& effect : effect_names(scene.effects)) {
-    if (std::find(info.effects.begin(), info.effects.end(), effect) == info.effects.end()) {
-      return fmt::format("effect {}: {} does not simulate it", effect, info.name);
-    }
+  if (auto missing = missing_effect_reason(method, scene.effects)) return missing;
+  const auto reason = method.unsupported(scene, values, backend);
+  if (!reason) return std::nullopt;
+  const std::string effect = refused_effect(method, scene, values, backend);
+  return effect.empty() ? *reason : fmt::format("effect {}: {}", effect, *reason);
+}
+
+std::vector<std::string> effects_to_ignore(const Method& method, const Scene& scene, const Values& values,
+                                           const BackendInfo& backend) {
+  const std::vector<std::string> missing = missing_effects(method, scene.effects);
+  Scene left = scene;
+  for (const std::string& effect : missing) left.effects = without_effect(left.effects, effect);
+  std::vector<std::string> out = missing;
+  while (method.unsupported(left, values, backend)) {
+    const std::string effect = refused_effect(method, left, values, backend);
+    if (effect.empty()) return missing;
+    left.effects = without_effect(left.effects, effect);
+    out.push_back(effect);
   }
-  return method.unsupported(scene, values, backend);
+  return out;
 }
 
 }  // namespace volumark
