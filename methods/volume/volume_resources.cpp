@@ -10,11 +10,7 @@ VolumeResources::VolumeResources(const Scene& scene, const VolumeSettings& setti
     : device_(device), table_size_(settings.table_size), preintegrated_size_(settings.preintegrated_size) {
   // The destructor does not run when a constructor throws: a refused texture must not leak the ones before it.
   try {
-    if (settings.classification == Classification::Pre) {
-      create_classified_volume(scene, settings);
-    } else {
-      create_volume(scene, settings);
-    }
+    create_volume(scene, settings);
     const std::vector<float> table = transfer_table(scene.transfer, table_size_);
     TextureDesc desc;
     desc.label = "transfer table";

@@ -57,7 +57,6 @@ class VolumeResources {
 
  private:
   void create_volume(const Scene& scene, const VolumeSettings& settings);
-  void create_classified_volume(const Scene& scene, const VolumeSettings& settings);
   Texture create(const TextureDesc& desc);
   void release();
 

@@ -5,7 +5,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "backends/defects.h"
-#include "methods/volume/volume_resources.h"
+#include "methods/volume/volume_texels.h"
 
 namespace volumark {
 namespace {
@@ -31,18 +31,6 @@ Format classified_format(const std::string& name, VoxelType type) {
     default:
       return Format::RGBA16F;
   }
-}
-
-TextureDesc volume_desc(const Volume& volume, Format format, std::span<const std::byte> data) {
-  TextureDesc desc;
-  desc.label = "volume";
-  desc.dimension = 3;
-  desc.format = format;
-  desc.width = volume.size.x;
-  desc.height = volume.size.y;
-  desc.depth = volume.size.z;
-  desc.data = data;
-  return desc;
 }
 
 // body(index, stored value as double) for every voxel.
@@ -97,43 +85,46 @@ struct Line {
 
 }  // namespace
 
-void VolumeResources::create_volume(const Scene& scene, const VolumeSettings& settings) {
+std::span<const std::byte> VolumeTexels::of(const Volume& volume) const {
+  if (converted.empty()) return volume.voxels;
+  return converted;
+}
+
+namespace {
+
+VolumeTexels scalar_texels(const Scene& scene, const VolumeSettings& settings) {
   const Volume& volume = *scene.volume;
   const double lo = scene.transfer.lo, window = scene.transfer.hi - scene.transfer.lo;
-  const Format format = scalar_format(settings.volume_format, volume.type);
-  const bool raw = format == scalar_format("native", volume.type) && volume.slope != 0;
-  std::vector<std::byte> texels;
-  std::span<const std::byte> data;
+  VolumeTexels texels;
+  texels.format = scalar_format(settings.volume_format, volume.type);
+  const bool raw = texels.format == scalar_format("native", volume.type) && volume.slope != 0;
   Line sampled{};  // data value = what the texture returns * slope + intercept
   if (raw && volume.type != VoxelType::I16) {
-    const double largest = format == Format::R8 ? 255 : format == Format::R16 ? 65535 : 1;
+    const double largest = texels.format == Format::R8 ? 255 : texels.format == Format::R16 ? 65535 : 1;
     sampled = {volume.slope * largest, volume.intercept};
-    data = volume.voxels;
   } else {
-    texels.resize(voxel_count(volume) * texel_bytes(format));
+    texels.converted.resize(voxel_count(volume) * texel_bytes(texels.format));
     if (raw) {
       sampled = {volume.slope * 65535, volume.intercept - 32768 * volume.slope};
-      each_voxel(volume, [&](size_t i, double v) { put(texels, i, static_cast<uint16_t>(v + 32768)); });
+      each_voxel(volume, [&](size_t i, double v) { put(texels.converted, i, static_cast<uint16_t>(v + 32768)); });
     } else {
       // Integer texels cover the range of the data; float texels hold the value normalised by the window.
-      const bool unorm = format == Format::R8 || format == Format::R16;
+      const bool unorm = texels.format == Format::R8 || texels.format == Format::R16;
       const double range = volume.max_value > volume.min_value ? volume.max_value - volume.min_value : 1;
       sampled = unorm ? Line{range, volume.min_value} : Line{window, lo};
       each_voxel(volume, [&](size_t i, double v) {
         const double value = v * volume.slope + volume.intercept;
-        put_channel(texels, format, i, (value - sampled.intercept) / sampled.slope);
+        put_channel(texels.converted, texels.format, i, (value - sampled.intercept) / sampled.slope);
       });
     }
-    data = texels;
   }
-  value_origin_ = static_cast<float>((lo - sampled.intercept) / sampled.slope);
-  value_scale_ = static_cast<float>(sampled.slope / window);
-  volume_ = create(volume_desc(volume, format, data));
+  texels.value_origin = static_cast<float>((lo - sampled.intercept) / sampled.slope);
+  texels.value_scale = static_cast<float>(sampled.slope / window);
+  return texels;
 }
 
-void VolumeResources::create_classified_volume(const Scene& scene, const VolumeSettings& settings) {
+VolumeTexels classified_texels(const Scene& scene, const VolumeSettings& settings) {
   const Volume& volume = *scene.volume;
-  const Format format = classified_format(settings.volume_format, volume.type);
   const double voxel = smallest_spacing(volume);
   const auto classify = [&](double stored) {
     const glm::dvec4 point =
@@ -141,10 +132,12 @@ void VolumeResources::create_classified_volume(const Scene& scene, const VolumeS
     const double opacity = -std::expm1(-point.a * voxel);
     return glm::dvec4(glm::dvec3(point) * (defect(Defect::UnassociatedColours) ? 1 : opacity), opacity);
   };
-  std::vector<std::byte> texels(voxel_count(volume) * texel_bytes(format));
+  VolumeTexels texels;
+  texels.format = classified_format(settings.volume_format, volume.type);
+  texels.converted.resize(voxel_count(volume) * texel_bytes(texels.format));
   const auto store = [&](size_t i, const glm::dvec4& colour) {
     for (int channel = 0; channel < 4; ++channel) {
-      put_channel(texels, format, i * 4 + static_cast<size_t>(channel), colour[channel]);
+      put_channel(texels.converted, texels.format, i * 4 + static_cast<size_t>(channel), colour[channel]);
     }
   };
   if (volume.type == VoxelType::F32) {
@@ -157,7 +150,30 @@ void VolumeResources::create_classified_volume(const Scene& scene, const VolumeS
     each_voxel(volume,
                [&](size_t i, double v) { store(i, classes[static_cast<size_t>(static_cast<int>(v) - first)]); });
   }
-  volume_ = create(volume_desc(volume, format, texels));
+  return texels;
+}
+
+}  // namespace
+
+VolumeTexels volume_texels(const Scene& scene, const VolumeSettings& settings) {
+  return settings.classification == Classification::Pre ? classified_texels(scene, settings)
+                                                        : scalar_texels(scene, settings);
+}
+
+void VolumeResources::create_volume(const Scene& scene, const VolumeSettings& settings) {
+  const Volume& volume = *scene.volume;
+  const VolumeTexels texels = volume_texels(scene, settings);
+  TextureDesc desc;
+  desc.label = "volume";
+  desc.dimension = 3;
+  desc.format = texels.format;
+  desc.width = volume.size.x;
+  desc.height = volume.size.y;
+  desc.depth = volume.size.z;
+  desc.data = texels.of(volume);
+  volume_ = create(desc);
+  value_origin_ = texels.value_origin;
+  value_scale_ = texels.value_scale;
 }
 
 }  // namespace volumark
