@@ -7,7 +7,9 @@
 #include <map>
 
 #include "reports/analysis.h"
+#include "reports/attribution_table.h"
 #include "reports/effects_table.h"
+#include "reports/pairs_table.h"
 #include "reports/text_table.h"
 
 namespace volumark {
@@ -142,7 +144,8 @@ std::string seconds_text(double seconds) {
 }
 
 std::string tables_text(const Results& results) {
-  return time_to_error_table(results) + convergence_table(results) + effects_table(results) + parity_lines(results) +
+  return time_to_error_table(results) + convergence_table(results) + attribution_text(results) +
+         pairs_text(results) + effects_table(results) + parity_lines(results) +
          outcome_lines(results);
 }
 
