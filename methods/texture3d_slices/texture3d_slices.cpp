@@ -1,6 +1,7 @@
 #include "methods/texture3d_slices/texture3d_slices.h"
 
 #include "methods/texture3d_slices/slice_geometry.h"
+#include "methods/volume/growing_buffer.h"
 #include "methods/volume/volume_parameters.h"
 #include "methods/volume/volume_resources.h"
 #include "programs/texture3d_slices_frag.h"
@@ -67,32 +68,6 @@ VolumeSettings settings_of(const Scene& scene, const Values& values) {
   if (scene.volume) settings.segment = step_in_world(scene, values);
   return settings;
 }
-
-// A buffer that grows. What it grew out of stays alive until the end: draws recorded before may still read it.
-class GrowingBuffer {
- public:
-  GrowingBuffer(Device& device, const char* label) : device_(device), label_(label) {}
-  ~GrowingBuffer() {
-    for (const Buffer buffer : buffers_) device_.destroy(buffer);
-  }
-  GrowingBuffer(const GrowingBuffer&) = delete;
-  GrowingBuffer& operator=(const GrowingBuffer&) = delete;
-
-  Buffer upload(std::span<const std::byte> data) {
-    if (data.size() > size_) {
-      size_ = std::max(data.size(), size_ + size_ / 2);
-      buffers_.push_back(device_.create_buffer({label_, size_, {}}));
-    }
-    device_.update_buffer(buffers_.back(), 0, data);
-    return buffers_.back();
-  }
-
- private:
-  Device& device_;
-  const char* label_;
-  size_t size_ = 0;
-  std::vector<Buffer> buffers_;
-};
 
 class PreparedSlices final : public PreparedMethod {
  public:
