@@ -8,6 +8,7 @@
 #include <numeric>
 #include <random>
 #include <set>
+#include <span>
 #include <thread>
 
 #include "harness/convergence.h"
@@ -381,7 +382,7 @@ void Runner::compare_backends(const Group& group, const SceneContext& context,
 void Runner::run_scene(size_t begin, size_t end, Progress& progress) {
   const Group& group = groups_[begin];
   SceneContext context = make_context(*group.experiment, group.scene, options_.data);
-  FollowUp follow_up(std::span(groups_).subspan(begin, end - begin), experiments_, out_.results);
+  FollowUp follow_up(std::span<const Group>(groups_).subspan(begin, end - begin), experiments_, out_.results);
   follow_up_ = &follow_up;
   bool all_before = options_.resume && follow_up.complete();
   for (size_t i = begin; i < end && all_before; ++i)
