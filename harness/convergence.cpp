@@ -46,13 +46,19 @@ void sort_cells(std::vector<Result*>& cells) {
             [](const Result* a, const Result* b) { return a->quality->value > b->quality->value; });
 }
 
-void judge(Convergence& row, const OrderFit& fit, bool expected_here) {
-  if (fit.points == 0) {
-    row.verdict = "not resolved";
-    row.reason = "fewer than three values where the error falls steadily above the reference's bound";
-  } else if (!(row.expected > 0) || !expected_here) {
+void judge(Convergence& row, const OrderFit& fit, bool expected_here, double bound) {
+  if (!(row.expected > 0) || !expected_here) {
     row.verdict = "not stated";
     row.reason = row.expected > 0 ? "the scene's field is not smooth" : "the method states no order here";
+  } else if (std::all_of(row.errors.begin(), row.errors.end(), [&](double e) { return e <= kNoiseBounds * bound; })) {
+    row.verdict = "at the bound";
+    row.reason = fmt::format("every error is within {} bounds of the reference ({:.1e})", kNoiseBounds, bound);
+  } else if (fit.points == 0) {
+    row.verdict = "not resolved";
+    row.reason = row.errors.size() < 3
+                     ? "fewer than three values"
+                     : "fewer than three values in a row between which the error falls steadily above "
+                       "the reference's bound";
   } else if (fit.order >= row.expected - kOrderTolerance) {
     row.verdict = "pass";
     row.reason = fit.order > row.expected + kOrderTolerance ? "converges faster than expected" : "";
@@ -81,11 +87,15 @@ Convergence converge(const Series& series, bool expected_here) {
   row.fitted_lo = fit.lo;
   row.fitted_hi = fit.hi;
   row.floor = fit.floor;
-  judge(row, fit, expected_here);
+  judge(row, fit, expected_here, bound);
   return row;
 }
 
 }  // namespace
+
+bool is_bad_news(const Convergence& row) {
+  return row.verdict == "fail" || (row.verdict == "not resolved" && row.values.size() >= 3);
+}
 
 void fit_convergence(Results& results, const std::vector<Experiment>& experiments) {
   results.convergence.clear();

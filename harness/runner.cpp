@@ -433,9 +433,9 @@ void Runner::collect_bad_news() {
           "parity: {} {} view {}: {} and {} differ by {:.2e} in {} interior pixels, limit {:g}", row.key.scene,
           row.key.method, row.view, row.key.backend, row.other, row.interior_max, row.interior_over, row.limit));
   for (const Convergence& row : results.convergence)
-    if (row.verdict == "fail")
-      out_.bad_news.push_back(
-          fmt::format("convergence: {} {} {}: {}", row.key.scene, row.key.method, row.key.backend, row.reason));
+    if (is_bad_news(row))
+      out_.bad_news.push_back(fmt::format("convergence {}: {} {} {}: {}", row.verdict, row.key.scene, row.key.method,
+                                          row.key.backend, row.reason));
   for (const SelfTestRow& row : results.self_test)
     if (!row.ok)
       out_.bad_news.push_back(

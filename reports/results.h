@@ -267,7 +267,7 @@ struct Convergence {
   double fitted = 0, fitted_lo = 0, fitted_hi = 0, expected = 0;
   double floor = 0;          // smallest error reached; 0: still falling
   std::string floor_reason;  // what holds the error there, from the attribution; empty: not known, or no floor
-  std::string verdict;       // "pass", "fail", "not stated" or "not resolved", with the reason after it in `reason`
+  std::string verdict;       // "pass", "fail", "not stated", "not resolved" or "at the bound"; why: `reason`
   std::string reason;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "reports/analysis.h"
 #include "reports/attribution_table.h"
@@ -45,12 +46,27 @@ bool is_software(const Results& results, const std::string& backend) {
                      [&](const BackendResultInfo& info) { return info.id == backend && info.software; });
 }
 
-std::string time_to_error_table(const Results& results) {
+// The quality values between which a time lies: "1..0.5"; of a measured cell its own.
+std::string between(const Results& results, const TimeToError& found) {
+  const auto value = [&](size_t index) {
+    const std::optional<Quality>& quality = results.results[index].quality;
+    return quality ? fmt::format("{:g}", quality->value) : std::string("-");
+  };
+  return found.coarse == found.fine ? value(found.fine) : value(found.coarse) + ".." + value(found.fine);
+}
+
+struct SeriesTable {
+  const char* metric;
+  const char* shown;
+  std::span<const double> targets;
+};
+
+std::string time_to_error_table(const Results& results, const SeriesTable& wanted) {
   std::vector<SeriesName> order;  // as first met
   std::map<SeriesName, std::vector<CostPoint>> series;
   for (size_t i = 0; i < results.results.size(); ++i) {
     const Result& result = results.results[i];
-    const auto point = cost_point(results, i, "rmse");
+    const auto point = cost_point(results, i, wanted.metric);
     if (!point) continue;
     const SeriesName name{result.key.experiment, result.key.scene, result.key.method + variant_of(results, result),
                           result.key.backend};
@@ -59,34 +75,58 @@ std::string time_to_error_table(const Results& results) {
   }
   if (series.empty()) return {};
   std::vector<Row> rows = {{"scene", "method", "backend"}};
-  for (const double target : kErrorTargets) rows[0].push_back(fmt::format("rmse {:g}", target));
-  rows[0].push_back("best rmse");
+  for (const double target : wanted.targets) rows[0].push_back(fmt::format("{} {:g}", wanted.shown, target));
+  rows[0].push_back("best");
   rows[0].emplace_back("at");
   for (const SeriesName& name : order) {
     Row row = {name.scene, name.method, name.backend + (is_software(results, name.backend) ? "*" : "")};
-    TimeToError best;
-    for (const double target : kErrorTargets) {
-      best = time_to_error(series[name], target);
-      row.push_back(best.seconds ? (best.interpolated ? "" : "<") + seconds_text(*best.seconds) : "-");
+    TimeToError found;
+    for (const double target : wanted.targets) {
+      found = time_to_error(series[name], target);
+      row.push_back(found.seconds ? fmt::format("{}{} ({})", found.interpolated ? "" : "<",
+                                                seconds_text(*found.seconds), between(results, found))
+                                  : "-");
     }
-    row.push_back(fmt::format("{:.1e}", best.best_error));
-    row.push_back(seconds_text(best.best_seconds));
+    row.push_back(fmt::format("{:.1e}", found.best_error));
+    row.push_back(seconds_text(found.best_seconds));
     rows.push_back(std::move(row));
   }
-  return "Time a frame to reach an error (RMSE of the worst view; - not reached; < the coarsest setting that was "
-         "tried, or\n"
-         "one that was measured exactly; * software: never ranked against a GPU)\n\n" +
-         text_table(rows, 3);
+  return text_table(rows, 3);
+}
+
+std::string time_to_error_tables(const Results& results) {
+  const std::string rmse = time_to_error_table(results, {"rmse", "rmse", kErrorTargets});
+  const std::string flip = time_to_error_table(results, {"flip_p99", "flip", kFlipTargets});
+  if (rmse.empty()) return {};
+  return "Time a frame to reach an RMSE, worst view (in brackets the settings of the quality axis between which it "
+         "lies; "
+         "- not\n"
+         "reached, see best; < the coarsest setting that was tried, or one measured exactly; * software: never ranked "
+         "against\n"
+         "a GPU)\n\n" +
+         rmse + "\nThe same for FLIP, 99th percentile\n\n" + flip;
+}
+
+std::string empty_view_lines(const Results& results) {
+  const auto empty = std::count_if(results.results.begin(), results.results.end(), a_view_shows_nothing);
+  return empty == 0 ? ""
+                    : fmt::format(
+                          "\n{} cells have views that show nothing but the background: those have no say in "
+                          "errors\n",
+                          empty);
 }
 
 std::string convergence_table(const Results& results) {
-  std::vector<Row> rows = {{"scene", "method", "backend", "axis", "order", "expected", "verdict"}};
+  std::vector<Row> rows = {{"scene", "method", "backend", "axis", "order", "95 %", "expected", "verdict"}};
   for (const Convergence& row : results.convergence) {
-    if (row.verdict != "pass" && row.verdict != "fail") continue;
+    if (row.verdict == "not stated" || !(row.expected > 0)) continue;
     Result carrier;
     carrier.key = row.key;
+    const bool fitted = row.fitted_points > 0;
     rows.push_back({row.key.scene, row.key.method + variant_of(results, carrier), row.key.backend, row.parameter,
-                    fmt::format("{:.2f}", row.fitted), fmt::format("{:g}", row.expected), row.verdict});
+                    fitted ? fmt::format("{:.2f}", row.fitted) : "-",
+                    fitted ? fmt::format("{:.2f}..{:.2f}", row.fitted_lo, row.fitted_hi) : "-",
+                    fmt::format("{:g}", row.expected), row.verdict});
   }
   return rows.size() == 1 ? "" : "\nOrder of convergence (error ~ axis^order)\n\n" + text_table(rows, 4);
 }
@@ -144,8 +184,8 @@ std::string seconds_text(double seconds) {
 }
 
 std::string tables_text(const Results& results) {
-  return time_to_error_table(results) + convergence_table(results) + attribution_text(results) +
-         pairs_text(results) + effects_table(results) + parity_lines(results) +
+  return time_to_error_tables(results) + empty_view_lines(results) + convergence_table(results) +
+         attribution_text(results) + pairs_text(results) + effects_table(results) + parity_lines(results) +
          outcome_lines(results);
 }
 

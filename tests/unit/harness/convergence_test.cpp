@@ -63,6 +63,33 @@ TEST(Convergence, TwoValuesAreNotResolved) {
   EXPECT_FALSE(results.results[0].order.fitted);
 }
 
+TEST(Convergence, AnExpectedOrderThatDoesNotShowIsBadNews) {
+  Results results;
+  const double errors[] = {1e-2, 9e-3, 3e-3, 2.9e-3};  // falls by fits and starts
+  for (int i = 0; i < 4; ++i) results.results.push_back(cell("smooth", 4.0 / (1 << i), errors[i], 2));
+  fit_convergence(results, expecting("smooth"));
+  EXPECT_EQ(results.convergence[0].verdict, "not resolved");
+  EXPECT_TRUE(is_bad_news(results.convergence[0]));
+  fit_convergence(results, expecting("another"));
+  EXPECT_EQ(results.convergence[0].verdict, "not stated");
+  EXPECT_FALSE(is_bad_news(results.convergence[0]));
+  results.results.resize(2);  // the user chose two values: nothing was to be seen
+  fit_convergence(results, expecting("smooth"));
+  EXPECT_EQ(results.convergence[0].verdict, "not resolved");
+  EXPECT_FALSE(is_bad_news(results.convergence[0]));
+}
+
+TEST(Convergence, ErrorsAtTheReferencesBoundAreNoFailure) {
+  Results results = series("smooth", 0, 2);  // 0.01 everywhere
+  for (Result& result : results.results) {
+    result.views.emplace_back();
+    result.views[0].reference = ReferenceInfo{"", "", 0.005, false, {}};
+  }
+  fit_convergence(results, expecting("smooth"));
+  EXPECT_EQ(results.convergence[0].verdict, "at the bound");
+  EXPECT_FALSE(is_bad_news(results.convergence[0]));
+}
+
 TEST(Convergence, SeriesDifferInTheirOtherParameters) {
   Results results = series("smooth", 2, 2);
   for (const Result& other : series("smooth", 1, 1).results) {
