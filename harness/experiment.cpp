@@ -160,8 +160,8 @@ Experiment parse_experiment(std::string_view text, const std::string& path) {
   const nlohmann::json json = parse_json(text, path);
   const JsonNode root(json, "", path);
   const JsonObject object(root, {"name", "title", "description", "scenes", "methods", "backends", "views", "image_size",
-                                 "sampling", "images", "reference_tolerance", "limits", "finest_limits", "parity",
-                                 "attribute", "pairs", "effects", "expect_order_on"});
+                                 "sampling", "images", "reference_tolerance", "reference_budget", "limits",
+                                 "finest_limits", "parity", "attribute", "pairs", "effects", "expect_order_on"});
   Experiment out;
   out.path = path;
   out.name = object.at("name").string();
@@ -187,6 +187,7 @@ Experiment parse_experiment(std::string_view text, const std::string& path) {
                                   : Experiment::Images::First;
   }
   out.reference_tolerance = object.number_or("reference_tolerance", out.reference_tolerance, 0, 1, true);
+  out.reference_budget = object.number_or("reference_budget", out.reference_budget, 0, 1e9);
   if (const auto limits = object.find("limits")) out.limits = parse_limits(*limits);
   if (const auto limits = object.find("finest_limits")) out.finest_limits = parse_limits(*limits);
   out.parity = object.number_or("parity", 0, 0, 1);
