@@ -15,7 +15,7 @@ FrameSource::FrameSource(const Scene& scene, const Method& method, const Values&
   prepare_.cost = since(start);
   TextureDesc desc;
   desc.label = "frame target";
-  desc.format = method.target_format(values);
+  desc.format = volumark::target_format(method, scene, values);
   desc.width = width;
   desc.height = height;
   desc.target = true;

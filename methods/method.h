@@ -54,8 +54,12 @@ class Method {
                                                  const BackendInfo& backend) const = 0;
   // Everything that does not depend on the view. `scene.volume` is loaded.
   virtual std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const = 0;
-  virtual Format target_format(const Values& values) const = 0;
+  virtual Format target_format(const Values& values) const = 0;  // where the scene does not decide it
 };
+
+// The format of the target that render() draws `scene` into: RGBA8 where it calls for fixed_point, whose frame buffer
+// has 8 bits a channel; otherwise the method's.
+Format target_format(const Method& method, const Scene& scene, const Values& values);
 
 // Why this cell cannot be drawn; nothing where it can. "effect NAME: why" where it could be without that effect.
 std::optional<std::string> unsupported_reason(const Method& method, const Scene& scene, const Values& values,

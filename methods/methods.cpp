@@ -5,13 +5,14 @@
 
 #include "methods/method.h"
 #include "methods/raycast/raycast.h"
+#include "methods/slices2d/slices2d.h"
 #include "methods/texture3d_slices/texture3d_slices.h"
 
 namespace volumark {
 
 // The one list of methods: add yours here.
 std::span<const Method* const> method_list() {
-  static const std::array<const Method*, 2> list = {&texture3d_slices(), &raycast()};
+  static const std::array<const Method*, 3> list = {&texture3d_slices(), &raycast(), &slices2d()};
   return list;
 }
 
@@ -23,6 +24,10 @@ const Method& find_method(const std::string& name) {
   }
   throw ParameterError(
       fmt::format("unknown method \"{}\"{}; known: {}", name, did_you_mean(name, names), fmt::join(names, ", ")));
+}
+
+Format target_format(const Method& method, const Scene& scene, const Values& values) {
+  return scene.effects.fixed_point ? Format::RGBA8 : method.target_format(values);
 }
 
 std::vector<std::string> missing_effects(const Method& method, const Effects& effects) {

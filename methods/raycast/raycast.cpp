@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "methods/raycast/bricks.h"
+#include "methods/raycast/fixed_raycast.h"
 #include "methods/raycast/raycast_cpu.h"
 #include "methods/volume/volume_parameters.h"
 #include "methods/volume/volume_resources.h"
@@ -84,7 +85,7 @@ MethodInfo make_info() {
   info.parameters = {kStep.info(),        kRayClassification.info(), kEarlyTermination.info(),  kSkipEmpty.info(),
                      kBrickSize.info(),   kTableSize.info(),         kPreintegratedSize.info(), kVolumeFormat.info(),
                      kTargetFormat.info()};
-  info.effects = {"lighting", "clip_planes"};
+  info.effects = {"lighting", "clip_planes", "fixed_point"};
   // Midpoint samples on the clipped ray, and pre-integrated segments with self-attenuation, are both of order 2. What
   // no step removes hides it: a target or a volume texture with few bits, rays that end early.
   info.expected_order = [](const Values& values) {
@@ -217,9 +218,14 @@ class Raycast final : public Method {
   }
   std::optional<std::string> unsupported(const Scene& scene, const Values& values,
                                          const BackendInfo& backend) const override {
+    if (auto reason = fixed_point_unsupported(scene, classification(values))) return reason;
     return volume_unsupported(scene, settings_of(scene, values), backend);
   }
   std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const override {
+    if (scene.effects.fixed_point) {
+      const FixedSettings settings{classification(values), false, kStep(values) * smallest_spacing(*scene.volume)};
+      return prepare_fixed_raycast(scene, settings, kEarlyTermination(values), device);
+    }
     return std::make_unique<PreparedRaycast>(scene, values, device);
   }
   Format target_format(const Values& values) const override { return target_format_of(values); }

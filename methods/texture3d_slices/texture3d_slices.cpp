@@ -1,5 +1,6 @@
 #include "methods/texture3d_slices/texture3d_slices.h"
 
+#include "methods/texture3d_slices/fixed_slices.h"
 #include "methods/texture3d_slices/slice_geometry.h"
 #include "methods/volume/growing_buffer.h"
 #include "methods/volume/volume_parameters.h"
@@ -185,15 +186,20 @@ class Texture3dSlices final : public Method {
         {parameters::step().info(), parameters::order().info(), parameters::end_slabs().info(),
          parameters::kClassification.info(), parameters::kOpacityCorrection.info(), parameters::kTargetFormat.info(),
          parameters::kVolumeFormat.info(), parameters::kTableSize.info(), parameters::kPreintegratedSize.info()},
-        {"lighting", "clip_planes"},
+        {"lighting", "clip_planes", "fixed_point"},
         expected_order};
     return info;
   }
   std::optional<std::string> unsupported(const Scene& scene, const Values& values,
                                          const BackendInfo& backend) const override {
+    if (auto reason = fixed_point_unsupported(scene, classification_of(values))) return reason;
     return volume_unsupported(scene, settings_of(scene, values), backend);
   }
   std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const override {
+    if (scene.effects.fixed_point) {
+      const FixedSettings settings{classification_of(values), linear_opacity(values), step_in_world(scene, values)};
+      return prepare_fixed_slices(scene, settings, parameters::order().index(values) == 1, device);
+    }
     return std::make_unique<PreparedSlices>(scene, values, device);
   }
   Format target_format(const Values& values) const override { return target_format_of(values); }
