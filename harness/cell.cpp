@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <new>
 
+#include "harness/effect_variants.h"
 #include "harness/environment.h"
 #include "harness/frame.h"
 #include "harness/gates.h"
+#include "harness/program_cost.h"
 #include "harness/run_folder.h"
 #include "harness/sampler.h"
 #include "reports/analysis.h"
@@ -41,19 +43,21 @@ bool keeps(const Experiment& experiment, const SceneContext& context, int view) 
          (experiment.images == Experiment::Images::First && view == context.views.front());
 }
 
-std::string picture_stem(const Cell& cell, int view) {
-  return fmt::format("{}/{}-{}-{}-v{}", cell.key.scene, cell.key.method, cell.backend,
-                     sha256_hex(std::string_view(key_text(cell.key))).substr(0, 10), view);
+std::string picture_stem(const Cell& cell, int view, const std::vector<std::string>& ignored) {
+  std::string stem = fmt::format("{}/{}-{}-{}-v{}", cell.key.scene, cell.key.method, cell.backend,
+                                 sha256_hex(std::string_view(key_text(cell.key))).substr(0, 10), view);
+  for (const std::string& effect : ignored) stem += "-ignored-" + effect;
+  return stem;
 }
 
 void store_pictures(const PictureStore& store, const Cell& cell, const SceneContext& context, const Image& image,
-                    ViewResult& view) {
+                    const std::vector<std::string>& ignored, ViewResult& view) {
   const auto index = static_cast<int>(view.index);
-  const std::string stem = picture_stem(cell, index);
+  const std::string stem = picture_stem(cell, index, ignored);
   const glm::dvec3& background = context.scene.background;
-  view.rendered = store.linear(stem, image, background);
+  view.rendered = store.linear(stem, image, background, ignored_note(ignored));
   const auto reference = context.references.find(index);
-  if (reference == context.references.end()) return;
+  if (reference == context.references.end() || !view.error) return;
   view.reference_image = context.reference_files.at(index);
   view.difference =
       store.shown(stem + "-difference", signed_difference_picture(image, reference->second.image, 0.05, background));
@@ -74,7 +78,15 @@ void measure_errors(const SceneContext& context, const Image& image, ViewResult&
   view.at_bound = view.error->max <= view.reference->bound;
 }
 
+// A reference without an effect is not the truth of a picture that has it.
+bool comparable(const SceneContext& context, const Result& result) {
+  return std::none_of(context.unreferenced.begin(), context.unreferenced.end(), [&](const std::string& effect) {
+    return std::find(result.effects.begin(), result.effects.end(), effect) != result.effects.end();
+  });
+}
+
 void fill_errors(const Group& group, const SceneContext& context, const std::map<int, Image>& images, Result& result) {
+  if (!comparable(context, result)) return;
   std::vector<ErrorMetrics> errors, telling;  // of all views; of those that show something
   for (ViewResult& view : result.views) {
     const auto image = images.find(static_cast<int>(view.index));
@@ -98,20 +110,22 @@ void fill_errors(const Group& group, const SceneContext& context, const std::map
 
 }  // namespace
 
-std::string case_version(const Group& group, const SceneContext& context) {
+std::string case_version(const Group& group, const Cell& cell, const SceneContext& scene_context) {
+  const SceneContext& context = scene_context.of(cell.key.variant);
   std::string text =
       fmt::format("{} {}x{} reference {} tolerance {:a} method {}", context.scene.hash, context.width, context.height,
                   kReferenceVersion, group.experiment->reference_tolerance, group.method->info().name);
   for (const auto& [name, value] : group.values) text += fmt::format(" {}={}", name, to_string(value));
   for (const int view : context.views) text += fmt::format(" view {}", view);
+  if (group.ignore_effects && !effect_names(context.scene.effects).empty()) text += " ignoring effects";
   return sha256_hex(std::string_view(text)).substr(0, 16);
 }
 
 CellRun::CellRun(const Group& group, const Cell& cell, const SceneContext& context, const CellOptions& options)
-    : group_(group), cell_(cell), context_(context), options_(options) {
+    : group_(group), cell_(cell), context_(context.of(cell.key.variant)), options_(options), scene_(context_.scene) {
   result_.key = cell.key;
-  result_.case_version = case_version(group, context);
-  result_.effects = effect_names(context.scene.effects);
+  result_.case_version = case_version(group, cell, context);
+  result_.effects = effect_names(scene_.effects);
   result_.width = context.width;
   result_.height = context.height;
   result_.quality = group.quality;
@@ -148,15 +162,31 @@ bool CellRun::guarded(Work work) {
   return !ended_;
 }
 
+// Leaves out what the method cannot simulate; the result says so, and so does the command that draws it again.
+void CellRun::ignore_effects() {
+  result_.ignored_effects = effects_to_ignore(*group_.method, scene_, group_.values, device_->info());
+  if (result_.ignored_effects.empty()) return;
+  scene_ = without_effects(scene_, result_.ignored_effects);
+  result_.effects = effect_names(scene_.effects);
+}
+
 void CellRun::open() {
   guarded([this] {
+    if (!group_.ignore_effects)  // before any work: data, Device, references
+      if (const auto reason = missing_effect_reason(*group_.method, scene_.effects))
+        throw Ended{Outcome::Unsupported, *reason};
     check_context(context_);
     device_ = std::make_unique<Device>(open_device(cell_.backend, options_));
     backend_ = device_->info();
-    if (const auto reason = unsupported_reason(*group_.method, context_.scene, group_.values, device_->info()))
+    if (group_.ignore_effects) ignore_effects();
+    if (const auto reason = unsupported_reason(*group_.method, scene_, group_.values, device_->info()))
       throw Ended{Outcome::Unsupported, *reason};
+    if (context_.want_references) context_.want_references();
+    check_context(context_);
+    reset_peak_resident();
     sampler_ = std::make_unique<FrameSampler>(*group_.experiment, context_, options_.stop);
-    sampler_->begin(*group_.method, group_.values, *device_, result_, images_);
+    sampler_->begin(scene_, *group_.method, group_.values, *device_, result_, images_);
+    result_.programs = program_costs(device_->programs());
   });
 }
 
@@ -180,18 +210,22 @@ Result CellRun::finish(const PictureStore& store) {
     const auto index = static_cast<int>(view.index);
     const auto image = images_.find(index);
     if (image != images_.end() && keeps(*group_.experiment, context_, index))
-      store_pictures(store, cell_, context_, image->second, view);
+      store_pictures(store, cell_, context_, image->second, result_.ignored_effects, view);
   }
   result_.finished_at = utc_now();
   return std::move(result_);
 }
 
-std::map<int, Image> draw_cell(const Group& group, const Cell& cell, const SceneContext& context,
+std::map<int, Image> draw_cell(const Group& group, const Cell& cell, const SceneContext& scene_context,
                                const CellOptions& options) {
+  const SceneContext& context = scene_context.of(cell.key.variant);
   std::map<int, Image> images;
   try {
     Device device = make_device(cell.backend, options.device);
-    FrameSource source(context.scene, *group.method, group.values, device, context.width, context.height);
+    Scene scene = context.scene;
+    if (group.ignore_effects)
+      scene = without_effects(scene, effects_to_ignore(*group.method, scene, group.values, device.info()));
+    FrameSource source(scene, *group.method, group.values, device, context.width, context.height);
     for (const int view : context.views) {
       source.frame(context.scene.views[static_cast<size_t>(view)]);
       images[view] = source.read_back();

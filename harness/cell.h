@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,7 +23,7 @@ struct Interrupted {};
 // A scene as all cells of an experiment share it.
 struct SceneContext {
   Scene scene;
-  std::optional<std::string> missing;  // its data are not installed: every cell is unsupported
+  std::optional<std::string> missing;  // data that are not installed, references too costly: every cell is unsupported
   std::optional<std::string> broken;   // its data or its references cannot be had: every cell has failed
   int width = 0, height = 0;
   std::vector<int> views;
@@ -30,6 +31,14 @@ struct SceneContext {
   std::map<int, ReferenceInfo> reference_infos;
   std::map<int, RegionMap> regions;
   std::map<int, ImageFile> reference_files;  // of the views whose pictures are kept
+  // Effects of the scene that the references lack, because nothing draws them exactly: they are the truth of a picture
+  // that lacks them too.
+  std::vector<std::string> unreferenced;
+  // Makes references, regions and reference_files, once: called by the first cell that is going to draw. Empty: made.
+  std::function<void()> want_references;
+  // The scene with its effects switched, by CellKey::variant. "" is this one.
+  std::map<std::string, std::shared_ptr<SceneContext>> variants;
+  const SceneContext& of(const std::string& variant) const { return variant.empty() ? *this : *variants.at(variant); }
 };
 
 struct CellOptions {
@@ -41,7 +50,7 @@ struct CellOptions {
 // A cell while it is measured. Passes of several cells can take turns, so that a drift of the machine meets all alike.
 class CellRun {
  public:
-  // All arguments outlive it.
+  // All arguments outlive it. `context` is that of the scene as it is: the cell's variant is chosen here.
   CellRun(const Group& group, const Cell& cell, const SceneContext& context, const CellOptions& options);
   ~CellRun();
   CellRun(const CellRun&) = delete;
@@ -63,13 +72,15 @@ class CellRun {
   template <class Work>
   bool guarded(Work work);
   void end(Outcome outcome, const std::string& reason);
+  void ignore_effects();
 
   const Group& group_;
   const Cell& cell_;
-  const SceneContext& context_;
+  const SceneContext& context_;  // of the variant
   const CellOptions& options_;
   std::optional<BackendInfo> backend_;
   std::map<int, Image> images_;
+  Scene scene_;  // without the effects that are ignored
   Result result_;
   std::unique_ptr<Device> device_;
   std::unique_ptr<FrameSampler> sampler_;  // destroyed before the Device
@@ -77,11 +88,12 @@ class CellRun {
   bool ended_ = false;
 };
 
-// The pictures alone, untimed: for a cell that an earlier process measured. Empty where it cannot be drawn.
+// The pictures alone, untimed: for a cell that an earlier process measured. Empty where it cannot be drawn. `context`
+// as in CellRun.
 std::map<int, Image> draw_cell(const Group& group, const Cell& cell, const SceneContext& context,
                                const CellOptions& options);
 
-// Hash of everything that the figures depend on: an edited case is a new series.
-std::string case_version(const Group& group, const SceneContext& context);
+// Hash of everything that the figures depend on: an edited case is a new series. `context` as in CellRun.
+std::string case_version(const Group& group, const Cell& cell, const SceneContext& context);
 
 }  // namespace volumark

@@ -81,14 +81,14 @@ Image over(const Image& image, const glm::dvec3& background) {
 }
 
 void write_with_module(const fs::path& file, const std::string& suffix, const Image& image,
-                       const glm::dvec3& background) {
+                       const glm::dvec3& background, const std::string& note) {
   const Module& module = need_module(file);
   const std::string temporary = file.string() + ".tmp" + std::to_string(::getpid()) + suffix;
   const bool png = suffix == ".png";
   const Image flat = png ? over(image, background) : Image();
   char error[512] = "";
   const float* pixels = png ? flat.rgba.data() : image.rgba.data();
-  if (module.write(temporary.c_str(), suffix.c_str() + 1, image.width, image.height, pixels, png, error,
+  if (module.write(temporary.c_str(), suffix.c_str() + 1, image.width, image.height, pixels, png, note.c_str(), error,
                    sizeof error) != 0) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
@@ -106,11 +106,11 @@ bool has_image_module(std::string* why) {
   return image_module().missing.empty();
 }
 
-void write_image(const fs::path& file, const Image& image, const glm::dvec3& background) {
+void write_image(const fs::path& file, const Image& image, const glm::dvec3& background, const std::string& note) {
   const std::string suffix = suffix_of(file);
   if (image.width < 1 || image.height < 1) throw ImageError(file.string() + ": an image without pixels");
   if (suffix != ".pfm") {
-    write_with_module(file, suffix, image, background);
+    write_with_module(file, suffix, image, background, note);
     return;
   }
   try {

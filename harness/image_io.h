@@ -21,8 +21,10 @@ class ImageError : public std::runtime_error {
 bool has_image_module(std::string* why = nullptr);
 
 // Throws ImageError: unknown suffix (with the known ones), missing module, unwritable file. Written to a temporary
-// file, then renamed. PFM keeps RGB over the background only, and so does PNG; EXR keeps premultiplied RGBA.
-void write_image(const std::filesystem::path& file, const Image& image, const glm::dvec3& background);
+// file, then renamed. PFM keeps RGB over the background only, and so does PNG; EXR keeps premultiplied RGBA. `note`:
+// what the file says of itself (PNG: Description, EXR: comments; PFM has no place for it).
+void write_image(const std::filesystem::path& file, const Image& image, const glm::dvec3& background,
+                 const std::string& note = "");
 
 // PNG comes back linear and opaque; PFM opaque.
 Image read_image(const std::filesystem::path& file);

@@ -6,7 +6,8 @@ namespace volumark {
 
 PictureStore::PictureStore(std::filesystem::path root) : root_(std::move(root)), module_(has_image_module()) {}
 
-ImageFile PictureStore::linear(const std::string& stem, const Image& image, const glm::dvec3& background) const {
+ImageFile PictureStore::linear(const std::string& stem, const Image& image, const glm::dvec3& background,
+                               const std::string& note) const {
   const std::string base = "images/" + stem;
   ImageFile out;
   out.path = base + (module_ ? ".exr" : ".pfm");
@@ -15,10 +16,10 @@ ImageFile PictureStore::linear(const std::string& stem, const Image& image, cons
   out.height = image.height;
   out.colourspace = "linear";
   std::filesystem::create_directories((root_ / base).parent_path());
-  write_image(root_ / out.path, image, background);
+  write_image(root_ / out.path, image, background, note);
   if (module_) {
     out.preview = base + ".png";
-    write_image(root_ / out.preview, image, background);
+    write_image(root_ / out.preview, image, background, note);
   }
   return out;
 }

@@ -17,7 +17,9 @@ class PictureStore {
   explicit PictureStore(std::filesystem::path root);
 
   // A linear picture (premultiplied RGBA) with its preview over the background. `stem`: "sphere/reference-v0".
-  ImageFile linear(const std::string& stem, const Image& image, const glm::dvec3& background) const;
+  // `note` as in write_image.
+  ImageFile linear(const std::string& stem, const Image& image, const glm::dvec3& background,
+                   const std::string& note = "") const;
   // A picture for the eye alone: differences and maps, opaque.
   ImageFile shown(const std::string& stem, const Image& image) const;
 

@@ -8,10 +8,12 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "harness/effect_variants.h"
 #include "harness/paths.h"
 #include "harness/run_folder.h"
 #include "scenes/errors.h"
 #include "scenes/nearest.h"
+#include "scenes/scene_io.h"
 
 namespace volumark {
 namespace {
@@ -108,12 +110,56 @@ std::string command_of(const Experiment& experiment, const CellKey& key, const s
     }
     if (seen.size() > 1) out += " --only " + quoted(name + "=" + to_string(value));
   }
+  if (experiment.effects) out += " --variant " + quoted(variant_word(key.variant));
   // A folder of its own: the results that name this command stay.
   return out + " --overwrite --out out/again";
 }
 
+// The variants of a scene that are left of those that the experiment asks for.
+std::vector<std::string> chosen_variants(const Experiment& experiment, const std::string& scene,
+                                         const CellFilter& filter) {
+  if (!experiment.effects) return {""};
+  const std::vector<std::string> effects = effect_names(load_scene(scene).effects);
+  if (filter.variants.empty()) return effect_variants(effects);
+  std::set<std::string> wanted;
+  for (const std::string& variant : filter.variants) try {
+      wanted.insert(canonical_variant(effects, variant));
+    } catch (const std::invalid_argument&) {  // of another scene: check_variants
+    }
+  std::vector<std::string> out;
+  for (const std::string& variant : effect_variants(effects))
+    if (wanted.contains(variant)) out.push_back(variant);
+  return out;
+}
+
+// A variant that no chosen scene has is a mistake.
+void check_variants(const std::vector<Experiment>& experiments, const CellFilter& filter) {
+  for (const std::string& variant : filter.variants) {
+    std::set<std::string> there;
+    bool found = false;
+    for (const Experiment& experiment : experiments) {
+      if (!experiment.effects) continue;
+      for (const std::string& scene : experiment.scenes) {
+        if (!passes(filter.scenes, scene_name(scene))) continue;
+        const std::vector<std::string> effects = effect_names(load_scene(scene).effects);
+        for (const std::string& known : effect_variants(effects)) there.insert(variant_word(known));
+        try {
+          canonical_variant(effects, variant);
+          found = true;
+        } catch (const std::invalid_argument&) {  // perhaps of the next scene
+        }
+      }
+    }
+    if (there.empty()) throw SceneError("--variant: the experiment switches no effects (\"effects\": true)");
+    if (!found)
+      throw SceneError(fmt::format("variant \"{}\" is of no scene that was chosen; they have: {}",
+                                   variant_word(variant), fmt::join(there, ", ")));
+  }
+}
+
 Group make_group(const Experiment& experiment, const std::string& scene, const ExperimentMethod& method,
-                 const Values& values, const CellFilter& filter, const std::vector<Sweep>& sweeps) {
+                 const Values& values, const CellFilter& filter, const std::vector<std::string>& variants,
+                 const std::vector<Sweep>& sweeps) {
   Group group;
   group.experiment = &experiment;
   group.scene = scene;
@@ -123,11 +169,13 @@ Group make_group(const Experiment& experiment, const std::string& scene, const E
     group.quality = Quality{method.quality_axis, number_of(values.find(method.quality_axis)->second)};
   for (const std::string& backend : experiment.backends) {
     if (!passes(filter.backends, backend)) continue;
-    Cell cell;
-    cell.backend = backend;
-    cell.key = {experiment.name, scene_name(scene), method.method->info().name, backend, values, ""};
-    cell.command = command_of(experiment, cell.key, sweeps);
-    group.cells.push_back(std::move(cell));
+    for (const std::string& variant : variants) {
+      Cell cell;
+      cell.backend = backend;
+      cell.key = {experiment.name, scene_name(scene), method.method->info().name, backend, values, variant};
+      cell.command = command_of(experiment, cell.key, sweeps);
+      group.cells.push_back(std::move(cell));
+    }
   }
   return group;
 }
@@ -147,11 +195,13 @@ void check_unique(const std::vector<Group>& groups) {
 std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter,
                               const std::vector<Sweep>& sweeps) {
   check_filters(experiments, filter);
+  check_variants(experiments, filter);
   size_t cells = 0;
   std::vector<Group> groups;
   for (const Experiment& experiment : experiments)
     for (const std::string& scene : experiment.scenes) {
       if (!passes(filter.scenes, scene_name(scene))) continue;
+      const std::vector<std::string> variants = chosen_variants(experiment, scene, filter);
       for (const ExperimentMethod& method : experiment.methods) {
         if (!passes(filter.methods, method.method->info().name)) continue;
         const std::vector<double> sweep =
@@ -161,7 +211,7 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
           if (!std::isnan(quality))
             set_value(method.method->info().parameters, values, method.quality_axis, nlohmann::json(quality));
           if (!passes(filter, values)) continue;
-          Group group = make_group(experiment, scene, method, values, filter, sweeps);
+          Group group = make_group(experiment, scene, method, values, filter, variants, sweeps);
           cells += group.cells.size();
           if (cells > kMostCells)
             throw SceneError(

@@ -1,5 +1,5 @@
-// An experiment spelt out: the cells in the order in which they run. Cells of a group differ in the backend alone;
-// their images are compared with each other.
+// An experiment spelt out: the cells in the order in which they run. Cells of a group are measured in turns, and their
+// images are compared with each other.
 #pragma once
 
 #include <string>
@@ -18,13 +18,15 @@ struct Cell {
   std::string command;  // runs this cell alone
 };
 
+// Cells of a group differ in the backend and, where the experiment switches effects, in the variant of the scene.
 struct Group {
   const Experiment* experiment = nullptr;  // outlives the plan
   std::string scene;                       // as the experiment names it
   const Method* method = nullptr;
   Values values;
   std::optional<Quality> quality;
-  bool finest = false;  // the last value of its sweep
+  bool finest = false;          // the last value of its sweep
+  bool ignore_effects = false;  // leave out what the method cannot simulate
   std::vector<Cell> cells;
 };
 
@@ -32,11 +34,12 @@ struct Group {
 struct CellFilter {
   std::vector<std::string> scenes, methods, backends;
   std::vector<std::pair<std::string, std::string>> only;  // parameter = value, as on the command line
+  std::vector<std::string> variants;                      // of experiments that switch effects, as in CellKey
 };
 
-// Scene by scene, method, quality value, backend. `sweeps` are those that were applied to the experiments: the cells'
-// commands name them. Throws SceneError where a filter names what no experiment has, and for more than kMostCells
-// cells.
+// Scene by scene, method, quality value, backend, variant. `sweeps` are those that were applied to the experiments: the
+// cells' commands name them. Throws SceneError where a filter names what no experiment has, and for more than
+// kMostCells cells.
 std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter,
                               const std::vector<Sweep>& sweeps = {});
 

@@ -5,13 +5,16 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <numeric>
 #include <random>
 #include <set>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "harness/convergence.h"
+#include "harness/effect_rows.h"
 #include "harness/environment.h"
 #include "harness/filter_levels.h"
 #include "harness/follow_up.h"
@@ -27,6 +30,7 @@ namespace {
 std::string short_name(const Group& group, const Cell& cell) {
   std::string name = fmt::format("{} {} {}", cell.key.scene, cell.key.method, cell.backend);
   if (group.quality) name += fmt::format(" {}={:g}", group.quality->parameter, group.quality->value);
+  if (!cell.key.variant.empty()) name += fmt::format(" ({})", cell.key.variant);
   return name;
 }
 
@@ -47,11 +51,15 @@ Result* find(Results& results, const CellKey& key) {
 
 constexpr uint64_t kSeed = 1;  // of the order
 
-std::map<std::string, std::string> device_options(const DeviceOptions& device) {
+// Of the command line, what figures depend on.
+std::map<std::string, std::string> deciding_options(const RunOptions& options) {
+  const DeviceOptions& device = options.cell.device;
   return {{"threads", std::to_string(device.threads)},
           {"gl_platform", device.gl_platform},
           {"vk_device", device.vk_device},
-          {"validation", device.validation ? "on" : "off"}};
+          {"validation", device.validation ? "on" : "off"},
+          {"references", options.references ? "on" : "off"},
+          {"ignore_effects", options.ignore_effects ? "on" : "off"}};
 }
 
 // What decides where a cell is drawn, as words of the command line, each with a space before it.
@@ -81,13 +89,23 @@ class Runner {
       : options_(options), cache_(options.cache), folder_(options.out), store_(options.out) {
     for (const std::string& name : options.experiments) {
       experiments_.push_back(load_experiment(name));
-      if (!options.images) experiments_.back().images = Experiment::Images::None;
+      Experiment& experiment = experiments_.back();
+      if (!options.images) experiment.images = Experiment::Images::None;
+      if (!options.references) {  // what is made of errors goes with them
+        experiment.references = experiment.attribute = experiment.pairs = false;
+        experiment.expect_order_on.clear();
+      }
     }
     remarks_ = apply_sweeps(experiments_, options.sweeps, options.filter.methods);
     groups_ = plan_cells(experiments_, options.filter, options.sweeps);
     const std::string globals = global_options(options.cell.device);
     for (Group& group : groups_) {
-      for (Cell& cell : group.cells) cell.command.insert(std::string("volumark").size(), globals);
+      group.ignore_effects = options.ignore_effects;
+      for (Cell& cell : group.cells) {
+        cell.command.insert(std::string("volumark").size(), globals);
+        if (options.ignore_effects) cell.command += " --ignore-effects";
+        if (!options.references) cell.command += " --no-reference";
+      }
     }
   }
 
@@ -105,8 +123,11 @@ class Runner {
   void keep(Result result, const Group& group, const Cell& cell, Progress& progress);
   bool done_before(const Cell& cell, const Group& group, const SceneContext& context);
   Result died(const Group& group, const Cell& cell, const SceneContext& context) const;
-  void compare_backends(const Group& group, const SceneContext& context,
-                        const std::vector<std::map<int, Image>>& images, Progress& progress);
+  void compare_backends(const Group& group, const SceneContext& context, const std::string& variant,
+                        const std::vector<std::map<int, Image>>& all, Progress& progress);
+  void compare_variants(const Group& group, const SceneContext& context,
+                        const std::vector<std::map<int, Image>>& images);
+  SceneContext scene_context(size_t begin, size_t end);
   void note_backend(const BackendInfo& info);
   void sort_results();
   void collect_bad_news();
@@ -151,7 +172,7 @@ std::string Runner::differences(const Results& earlier) const {
     for (const std::string& name : names) compare(name, value(was, name), value(is, name));
   };
   compare_all(earlier.machine.env, machine.env);
-  compare_all(earlier.run.device, device_options(options_.cell.device));
+  compare_all(earlier.run.device, deciding_options(options_));
   std::vector<std::string> sweeps;
   for (const Sweep& sweep : options_.sweeps) sweeps.push_back(to_string(sweep));
   compare("--sweep", fmt::format("{}", fmt::join(earlier.run.sweeps, " ")), fmt::format("{}", fmt::join(sweeps, " ")));
@@ -196,11 +217,12 @@ void Runner::start() {
   results.run.id = results.run.started_at + "-" + std::to_string(::getpid());
   results.run.argv = options_.argv;
   results.run.order =
-      "scene by scene; within a scene, method and parameters shuffled with the seed; backends pass by pass in turn; "
+      "scene by scene; within a scene, method and parameters shuffled with the seed; backends and variants pass by "
+      "pass in turn; "
       "views "
       "in turn within a pass, each pass one view further";
   results.run.seed = kSeed;
-  results.run.device = device_options(options_.cell.device);
+  results.run.device = deciding_options(options_);
   for (const Sweep& sweep : options_.sweeps) results.run.sweeps.push_back(to_string(sweep));
   results.git = git;
   results.build = build_info();
@@ -244,16 +266,16 @@ void Runner::note_backend(const BackendInfo& info) {
 
 bool Runner::done_before(const Cell& cell, const Group& group, const SceneContext& context) {
   const Result* old = find(out_.results, cell.key);
-  return old != nullptr && old->case_version == case_version(group, context);
+  return old != nullptr && old->case_version == case_version(group, cell, context);
 }
 
 Result Runner::died(const Group& group, const Cell& cell, const SceneContext& context) const {
   Result result;
   result.key = cell.key;
-  result.case_version = case_version(group, context);
+  result.case_version = case_version(group, cell, context);
   result.outcome = Outcome::Failed;
   result.reason = "the process died twice while it measured this cell";
-  result.effects = effect_names(context.scene.effects);
+  result.effects = effect_names(context.of(cell.key.variant).scene.effects);
   result.width = context.width;
   result.height = context.height;
   result.quality = group.quality;
@@ -282,7 +304,6 @@ void Runner::measure(const Group& group, const std::vector<size_t>& cells, const
       folder_.begin_cell(group.cells[i].key);
       open.push_back(std::make_unique<CellRun>(group, group.cells[i], context, options_.cell));
       const int64_t others = resident_bytes() - empty;
-      reset_peak_resident();
       open.back()->open();
       open.back()->held_by_others(others);
     }
@@ -336,18 +357,44 @@ void Runner::run_group(const Group& group, const SceneContext& context, Progress
   }
   if (!together.empty()) measure(group, together, context, images, progress);
   for (const std::vector<size_t>& one : alone) measure(group, one, context, images, progress);
-  if (!compares_backends(group) || std::all_of(before.begin(), before.end(), [](bool b) { return b; })) return;
+  const bool compares = compares_backends(group) || group.experiment->effects;
+  if (!compares || std::all_of(before.begin(), before.end(), [](bool b) { return b; })) return;
   for (size_t i = 0; i < group.cells.size(); ++i) {
     const Result* old = before[i] ? find(out_.results, group.cells[i].key) : nullptr;
     if (old != nullptr && old->metrics) images[i] = draw_cell(group, group.cells[i], context, options_.cell);
   }
-  compare_backends(group, context, images, progress);
+  if (compares_backends(group)) {
+    std::set<std::string> variants;
+    for (const Cell& cell : group.cells) variants.insert(cell.key.variant);
+    for (const std::string& variant : variants) compare_backends(group, context, variant, images, progress);
+  }
+  if (group.experiment->effects) compare_variants(group, context, images);
 }
 
-// Every backend with the first that drew: a difference between two others shows there too.
-void Runner::compare_backends(const Group& group, const SceneContext& context,
-                              const std::vector<std::map<int, Image>>& images, Progress& progress) {
-  const auto first = std::find_if(images.begin(), images.end(), [](const auto& views) { return !views.empty(); });
+// What each effect costs, from the cells of a group that were measured in turns.
+void Runner::compare_variants(const Group& group, const SceneContext& context,
+                              const std::vector<std::map<int, Image>>& images) {
+  std::map<std::string, std::vector<VariantCell>> by_backend;
+  for (size_t i = 0; i < group.cells.size(); ++i)
+    if (const Result* result = find(out_.results, group.cells[i].key))
+      by_backend[group.cells[i].backend].push_back({result, &images[i]});
+  for (const auto& [unused, cells] : by_backend)
+    for (EffectRow& row : effect_rows(context.scene, cells)) {
+      std::erase_if(out_.results.effects, [&](const EffectRow& old) {
+        return old.key == row.key && old.effect == row.effect && old.mode == row.mode;
+      });
+      out_.results.effects.push_back(std::move(row));
+    }
+}
+
+// Every backend with the first that drew the variant: a difference between two others shows there too.
+void Runner::compare_backends(const Group& group, const SceneContext& context, const std::string& variant,
+                              const std::vector<std::map<int, Image>>& all, Progress& progress) {
+  const std::map<int, Image> none;
+  std::vector<std::reference_wrapper<const std::map<int, Image>>> images;
+  for (size_t i = 0; i < all.size(); ++i)
+    images.push_back(group.cells[i].key.variant == variant ? std::cref(all[i]) : std::cref(none));
+  const auto first = std::find_if(images.begin(), images.end(), [](const auto& views) { return !views.get().empty(); });
   if (first == images.end()) return;
   const CellKey& key = group.cells[static_cast<size_t>(first - images.begin())].key;
   std::erase_if(out_.results.parity, [&](const ParityRow& row) { return row.key == key; });
@@ -355,8 +402,8 @@ void Runner::compare_backends(const Group& group, const SceneContext& context,
   limits.difference = group.experiment->parity;
   for (auto other = first + 1; other != images.end(); ++other)
     for (const int view : context.views) {
-      if (!first->contains(view) || !other->contains(view)) continue;
-      const Parity found = parity(first->at(view), other->at(view), limits);
+      if (!first->get().contains(view) || !other->get().contains(view)) continue;
+      const Parity found = parity(first->get().at(view), other->get().at(view), limits);
       ParityRow row;
       row.key = key;
       row.other = group.cells[static_cast<size_t>(other - images.begin())].backend;
@@ -379,9 +426,21 @@ void Runner::compare_backends(const Group& group, const SceneContext& context,
     }
 }
 
+// The scene of these groups, in every variant that their cells ask for.
+SceneContext Runner::scene_context(size_t begin, size_t end) {
+  SceneContext context = make_context(*groups_[begin].experiment, groups_[begin].scene, options_.data);
+  for (size_t i = begin; i < end; ++i)
+    for (const Cell& cell : groups_[i].cells) {
+      const std::string& variant = cell.key.variant;
+      if (!variant.empty() && !context.variants.contains(variant))
+        context.variants[variant] = variant_context(context, variant);
+    }
+  return context;
+}
+
 void Runner::run_scene(size_t begin, size_t end, Progress& progress) {
   const Group& group = groups_[begin];
-  SceneContext context = make_context(*group.experiment, group.scene, options_.data);
+  SceneContext context = scene_context(begin, end);
   FollowUp follow_up(std::span<const Group>(groups_).subspan(begin, end - begin), experiments_, out_.results);
   follow_up_ = &follow_up;
   bool all_before = options_.resume && follow_up.complete();
@@ -395,8 +454,16 @@ void Runner::run_scene(size_t begin, size_t end, Progress& progress) {
       }
     return;
   }
-  make_references(context, *group.experiment, cache_, store_, options_.cell.device.threads, options_.cell.stop,
-                  progress);
+  // When the first cell is about to draw: a scene that no method can draw costs no reference.
+  const auto later = [&](SceneContext& wanting) {
+    wanting.want_references = [this, &wanting, &group, &progress, made = false]() mutable {
+      if (std::exchange(made, true)) return;
+      make_references(wanting, *group.experiment, cache_, store_, options_.cell.device.threads, options_.cell.stop,
+                      progress);
+    };
+  };
+  later(context);
+  for (const auto& [unused, variant] : context.variants) later(*variant);
   std::erase_if(out_.results.scenes, [&](const SceneResultInfo& info) { return info.name == context.scene.name; });
   out_.results.scenes.push_back(scene_result_info(context.scene));
   // Neighbouring settings are not measured one after another either.

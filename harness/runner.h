@@ -21,8 +21,10 @@ struct RunOptions {
   std::filesystem::path out;
   std::filesystem::path cache;  // of references
   bool resume = false;
-  bool overwrite = false;  // a run in `out` may be replaced
-  bool images = true;      // false: keep none, whatever the experiments say
+  bool overwrite = false;       // a run in `out` may be replaced
+  bool images = true;           // false: keep none, whatever the experiments say
+  bool references = true;       // false: times alone, no errors
+  bool ignore_effects = false;  // leave out of each cell the effects that its method cannot simulate
   DataOptions data;
   CellOptions cell;
   std::vector<std::string> argv;

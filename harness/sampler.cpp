@@ -60,10 +60,10 @@ void FrameSampler::first_frames(Result& result, std::map<int, Image>& images) {
   }
 }
 
-void FrameSampler::begin(const Method& method, const Values& values, Device& device, Result& result,
+void FrameSampler::begin(const Scene& scene, const Method& method, const Values& values, Device& device, Result& result,
                          std::map<int, Image>& images) {
   entered_ = now();
-  source_.emplace(context_.scene, method, values, device, context_.width, context_.height);
+  source_.emplace(scene, method, values, device, context_.width, context_.height);
   metrics_.prepare.wall = source_->prepare_cost().cost.wall;
   metrics_.prepare.cpu = source_->prepare_cost().cost.cpu;
   for (const ZoneTime& zone : source_->prepare_cost().zones) metrics_.prepare.zones[zone.name] += zone.seconds;

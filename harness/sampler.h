@@ -22,7 +22,9 @@ class FrameSampler {
   FrameSampler(const Experiment& experiment, const SceneContext& context, const std::atomic<bool>* stop);
 
   // Each throws TimedOut, Interrupted, and what the method and the Device throw. The Device outlives the sampler.
-  void begin(const Method& method, const Values& values, Device& device, Result& result, std::map<int, Image>& images);
+  // `scene`: that of the context, or without the effects that are ignored.
+  void begin(const Scene& scene, const Method& method, const Values& values, Device& device, Result& result,
+             std::map<int, Image>& images);
   bool pass();  // false: enough is known
   // Metrics and statistics of the samples so far, into `result`.
   void finish(Result& result) const;

@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "harness/effect_variants.h"
 #include "harness/image_io.h"
+#include "harness/reference_cost.h"
 #include "scenes/errors.h"
 
 namespace volumark {
@@ -28,29 +33,39 @@ SceneContext make_context(const Experiment& experiment, const std::string& scene
 
 void make_references(SceneContext& context, const Experiment& experiment, const ReferenceCache& cache,
                      const PictureStore& store, int threads, const std::atomic<bool>* stop, Progress& progress) {
-  if (context.missing || context.broken) return;
+  if (context.missing || context.broken || !experiment.references) return;
+  context.unreferenced = context.scene.effects.others;
+  const Scene scene = without_effects(context.scene, context.unreferenced);
   ReferenceOptions options;
   options.tolerance = experiment.reference_tolerance;
   options.threads = threads;
+  const auto absent = static_cast<size_t>(std::count_if(context.views.begin(), context.views.end(), [&](int index) {
+    const View& view = scene.views[static_cast<size_t>(index)];
+    return !std::filesystem::exists(cache.file_of(reference_key(scene, view, context.width, context.height, options)));
+  }));
+  context.missing = too_costly(scene, experiment, context.width, context.height, absent);
+  if (context.missing) return;
   try {
     for (const int index : context.views) {
       if (stop != nullptr && stop->load()) throw Interrupted{};
-      const View& view = context.scene.views[static_cast<size_t>(index)];
+      const View& view = scene.views[static_cast<size_t>(index)];
       bool cached = false;
       const Instant start = now();
-      Reference reference = cache.get(context.scene, view, context.width, context.height, options, &cached);
+      Reference reference = cache.get(scene, view, context.width, context.height, options, &cached);
       if (!cached)
         progress.line(fmt::format("reference {} view {}: {} (bound {:.1e})", context.scene.name, index,
                                   duration_text(since(start).wall), reference.max_bound));
-      context.reference_infos[index] = {reference_key(context.scene, view, context.width, context.height, options),
-                                        pixel_hash(reference.image), reference.max_bound, reference.estimate};
+      context.reference_infos[index] = {reference_key(scene, view, context.width, context.height, options),
+                                        pixel_hash(reference.image), reference.max_bound, reference.estimate,
+                                        context.unreferenced};
       const bool kept = experiment.images == Experiment::Images::All ||
                         (experiment.images == Experiment::Images::First && index == context.views.front());
       if (kept)
-        context.reference_files[index] = store.linear(
-            fmt::format("{}/reference-{}x{}-v{}", context.scene.name, context.width, context.height, index),
-            reference.image, context.scene.background);
-      context.regions[index] = region_map(context.scene, view, reference, threads);
+        context.reference_files[index] =
+            store.linear(fmt::format("{}/reference-{}x{}-{}-v{}", context.scene.name, context.width, context.height,
+                                     scene.hash.substr(0, 8), index),
+                         reference.image, context.scene.background);
+      context.regions[index] = region_map(scene, view, reference, threads);
       context.references[index] = std::move(reference);
     }
   } catch (const ImageError&) {
@@ -58,6 +73,17 @@ void make_references(SceneContext& context, const Experiment& experiment, const 
   } catch (const std::exception& error) {
     context.broken = fmt::format("the reference cannot be made: {}", error.what());
   }
+}
+
+std::shared_ptr<SceneContext> variant_context(const SceneContext& context, const std::string& variant) {
+  auto out = std::make_shared<SceneContext>();
+  out->scene = scene_variant(context.scene, variant);
+  out->missing = context.missing;
+  out->broken = context.broken;
+  out->width = context.width;
+  out->height = context.height;
+  out->views = context.views;
+  return out;
 }
 
 SceneResultInfo scene_result_info(const Scene& scene) {

@@ -43,7 +43,7 @@ struct RunInfo {
   bool interrupted = false;
   int64_t resumed = 0;                        // how often --resume went on with it
   std::vector<std::string> sweeps;            // --sweep, each as name=value,value,...
-  std::map<std::string, std::string> device;  // options that decide where cells are drawn: threads, gl_platform, ...
+  std::map<std::string, std::string> device;  // options that figures depend on: threads, gl_platform, ...
 };
 
 struct GitInfo {
@@ -175,10 +175,11 @@ struct ImageFile {
 };
 
 struct ReferenceInfo {
-  std::string id;         // the cache key
-  std::string sha256;     // of the pixels
-  double bound = 0;       // largest error bound of any channel of any pixel
-  bool estimate = false;  // the bound is an estimate, not a proof
+  std::string id;                    // the cache key
+  std::string sha256;                // of the pixels
+  double bound = 0;                  // largest error bound of any channel of any pixel
+  bool estimate = false;             // the bound is an estimate, not a proof
+  std::vector<std::string> without;  // effects of the scene that the reference does not draw either
 };
 
 struct RegionError {

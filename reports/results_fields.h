@@ -206,6 +206,7 @@ void fields(A& a, ReferenceInfo& v) {
   a.field("sha256", v.sha256);
   a.field("bound", v.bound);
   a.field("estimate", v.estimate);
+  a.later("without", v.without);
 }
 
 template <class A>

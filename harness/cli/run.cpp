@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "harness/cli/commands.h"
+#include "harness/effect_variants.h"
 #include "harness/paths.h"
 #include "harness/runner.h"
 #include "reports/tables.h"
@@ -15,7 +16,7 @@ struct RunArguments {
   RunOptions options;
   std::string out;
   std::vector<std::string> only, sweeps;
-  bool no_images = false;
+  bool no_images = false, no_reference = false;
 };
 
 std::atomic<bool> stop_asked{false};
@@ -29,10 +30,12 @@ int run(const RunArguments& arguments, const Globals& globals) {
   for (const std::string& text : arguments.only) options.filter.only.push_back(split_assignment(text));
   for (const std::string& text : arguments.sweeps) options.sweeps.push_back(parse_sweep(text));
   for (const std::string& backend : options.filter.backends) check_backend_name(backend);
+  for (std::string& variant : options.filter.variants) variant = variant_from_word(variant);
   options.out = arguments.out.empty() ? "out/" + std::filesystem::path(options.experiments.front()).stem().string()
                                       : arguments.out;
   options.cache = cache_directory() / "references";
   options.images = !arguments.no_images;
+  options.references = !arguments.no_reference;
   options.data = globals.data_options();
   options.cell.device = globals.device;
   options.cell.require_backends = globals.require_backends;
@@ -73,6 +76,14 @@ void add_run(CLI::App& app, const Globals& globals, Action& action) {
                    "name=a,b,c or name=from..to*factor: of the quality axis instead of the experiment's values, of any "
                    "other parameter each value a series of its own")
       ->take_all();
+  command
+      ->add_option("--variant", options.filter.variants,
+                   "of an experiment that switches effects, only: all, none, 'only NAME', 'without NAME'")
+      ->delimiter(',');
+  command->add_flag("--ignore-effects", options.ignore_effects,
+                    "draw without the effects that a method cannot simulate; results and pictures say so");
+  command->add_flag("--no-reference", arguments->no_reference,
+                    "measure times alone, without references and errors: for scenes whose reference takes too long");
   command->add_flag("--no-images", arguments->no_images, "keep no pictures");
   command->footer("Example: volumark run quick --backend cpu --out out/quick");
   command->callback(

@@ -25,12 +25,13 @@ unsigned char srgb8(float linear) {
 
 float linear_of(float s) { return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F); }
 
-int write(const char* path, const char* format, int width, int height, const float* rgba, bool as_srgb8, char* error,
-          size_t error_size) {
+int write(const char* path, const char* format, int width, int height, const float* rgba, bool as_srgb8,
+          const char* note, char* error, size_t error_size) {
   auto out = OIIO::ImageOutput::create(format);
   if (!out) return fail(error, error_size, OIIO::geterror());
   const size_t pixels = static_cast<size_t>(width) * static_cast<size_t>(height);
   OIIO::ImageSpec spec(width, height, as_srgb8 ? 3 : 4, as_srgb8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
+  if (*note != '\0') spec.attribute("ImageDescription", note);
   std::vector<unsigned char> bytes;
   if (as_srgb8) {
     spec.attribute("oiio:ColorSpace", "sRGB");
@@ -82,9 +83,9 @@ int read(const char* path, int* width, int* height, float** rgba, char* error, s
 
 // Nothing may be thrown through a C interface.
 extern "C" int vm_oiio_write(const char* path, const char* format, int width, int height, const float* rgba, int srgb8,
-                             char* error, size_t error_size) {
+                             const char* note, char* error, size_t error_size) {
   try {
-    return write(path, format, width, height, rgba, srgb8 != 0, error, error_size);
+    return write(path, format, width, height, rgba, srgb8 != 0, note, error, error_size);
   } catch (const std::exception& e) {
     return fail(error, error_size, e.what());
   }

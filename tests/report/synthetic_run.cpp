@@ -8,6 +8,7 @@
 #include "reports/analysis.h"
 #include "tests/report/png_writer.h"
 #include "tests/report/synthetic_pictures.h"
+#include "tests/report/synthetic_sections.h"
 
 namespace volumark::report_test {
 namespace {
@@ -99,6 +100,7 @@ class Maker {
   void describe();
   void scene(int index, const std::string& name);
   void odd_cells();
+  void other_series();
   void series();
 
  private:
@@ -152,7 +154,7 @@ ViewResult Maker::view(int scene, const Result& result, const Technique& techniq
   out.frame_wall = around(result.metrics->frame_wall.stats.median * (1 + 0.05 * index), 6);
   out.frame_cpu = out.frame_wall;
   out.counters["slices"] = static_cast<int64_t>(220 / step);
-  out.reference = ReferenceInfo{"synthetic", kSha, kBound, false};
+  out.reference = ReferenceInfo{"synthetic", kSha, kBound, false, {}};
   out.error = measured(drawn, exact);
   out.at_bound = out.error->max <= kBound;
   const std::string base = "images/s" + std::to_string(scene) + "/",
@@ -167,7 +169,11 @@ ViewResult Maker::view(int scene, const Result& result, const Technique& techniq
 
 Result Maker::cell(int scene, const std::string& name, const Technique& technique, const Place& place, double step) {
   Result out;
-  out.key = {"quick", name, technique.name, place.name, {{"step", step}, {"classification", std::string("post")}}};
+  out.key = {"quick",
+             name,
+             technique.name,
+             place.name,
+             {{"step", step}, {"classification", std::string("post")}, {"target_format", std::string("rgba32f")}}};
   out.case_version = "0123456789abcdef";
   out.outcome = Outcome::Ok;
   out.effects = {"lighting"};
@@ -199,7 +205,7 @@ void Maker::scene(int index, const std::string& name) {
                             {64, 64, 64},
                             "F32",
                             "MIT",
-                            "formula",
+                            index == 0 ? "procedural" : "debian:somewhere",
                             {"lighting"},
                             {"front", "left"},
                             {0, 0, 0}});
@@ -235,17 +241,41 @@ void Maker::odd_cells() {
   lost.difference->preview.clear();
 }
 
+// The same method with other target formats, one that left an effect out, and one that shows nothing.
+void Maker::other_series() {
+  for (const char* format : {"rgba8", "rgba16f"})
+    for (const double step : {4.0, 1.0}) {
+      const double coarser = std::string(format) == "rgba8" ? 3 : 1.5;
+      const Technique technique{"raycast", 0.006 * coarser, 0.019};
+      Result other = cell(0, results.scenes[0].name, technique, kPlaces[0], step);
+      other.key.params["target_format"] = std::string(format);
+      for (ViewResult& view : other.views) view.difference = view.flip = std::nullopt;
+      results.results.push_back(other);
+    }
+  Result ignoring = cell(0, results.scenes[0].name, kTechniques[0], kPlaces[2], 2);
+  ignoring.ignored_effects = {"ground_fog"};
+  results.results.push_back(ignoring);
+  Result empty = cell(1, results.scenes[1].name, kTechniques[1], kPlaces[2], 8);
+  empty.key.backend = "null4";
+  for (ViewResult& view : empty.views) view.shows_nothing = true;
+  results.results.push_back(empty);
+}
+
 void Maker::series() {
   for (size_t s = 0; s < results.scenes.size(); ++s)
     for (const Technique& technique : kTechniques)
       for (const Place& place : kPlaces) {
         Convergence row;
-        row.key = {
-            "quick", results.scenes[s].name, technique.name, place.name, {{"classification", std::string("post")}}};
+        row.key = {"quick",
+                   results.scenes[s].name,
+                   technique.name,
+                   place.name,
+                   {{"classification", std::string("post")}, {"target_format", std::string("rgba32f")}}};
         row.parameter = "step";
         for (const Result& result : results.results) {
           if (result.key.scene != row.key.scene || result.key.method != row.key.method ||
-              result.key.backend != row.key.backend || !result.error)
+              result.key.backend != row.key.backend || !result.error ||
+              result.key.params.at("target_format") != ParamValue(std::string("rgba32f")))
             continue;
           row.values.push_back(result.quality->value);
           row.errors.push_back(result.error->worst.rmse);
@@ -278,7 +308,9 @@ Results synthetic_run(const std::filesystem::path& folder) {
   maker.scene(0, "ball");
   maker.scene(1, kNastyScene);
   maker.odd_cells();
+  maker.other_series();
   maker.series();
+  add_sections(maker.results, folder);
   return std::move(maker.results);
 }
 

@@ -66,7 +66,7 @@ Results sample_results() {
   view.name = "front";
   view.frame_wall = metrics.frame_wall.stats;
   view.counters["samples"] = 1234;
-  view.reference = ReferenceInfo{"key", kSha, 1e-6, true};
+  view.reference = ReferenceInfo{"key", kSha, 1e-6, true, {"ground_fog"}};
   view.error = errors(0.01);
   view.rendered = ImageFile{"images/a.exr", kSha, 8, 8, "linear", "images/a.png"};
   good.views = {view};
