@@ -44,15 +44,19 @@ vm.startDetails = () => {
     [view.frame_wall ? `${vm.ms(view.frame_wall.median)} ms` : 'not timed',
       view.error ? `RMSE ${vm.scientific(view.error.rmse)}` : 'no error',
       view.reference ? `bound ${vm.scientific(view.reference.bound)}` : '',
+      view.shows_nothing ? 'shows nothing' : '',
       view.at_bound ? 'at the reference\u2019s bound' : ''].filter(Boolean).join(', ')]));
   const describe = (result) => {
     const parameters = Object.entries(result.key.params).map(([name, v]) => [name, String(v)]);
     const grid = vm.make('div', { className: 'detail-grid' }, block('Parameters', [...parameters,
+      ...(result.key.variant ? [['effects switched', result.key.variant]] : []),
+      ...(result.ignored_effects?.length > 0 ? [['ignored effects', result.ignored_effects.join(', ')]] : []),
       ['image', `${result.width} \u00d7 ${result.height}`], ['effects', result.effects.join(', ') || 'none'],
       ['case', result.case_version]]));
     if (result.metrics) grid.append(timeBlock(result.metrics), workBlock(result.metrics));
     if (result.error) grid.append(errorBlock(result.error.worst, result.error.mean));
     if (result.error && Object.keys(result.error.worst.regions).length > 0) grid.append(regionBlock(result.error.worst.regions));
+    if (result.programs?.length > 0) grid.append(block('Instructions', result.programs.map((p) => [`${p.program}, ${p.stage}`, String(p.instructions)])));
     if (result.views.length > 0) grid.append(viewBlock(result.views));
     const box = vm.make('div', {});
     if (result.reason) box.append(vm.make('p', { textContent: result.reason }));

@@ -33,6 +33,24 @@ std::string load(const std::array<double, 3>& values) {
   return fmt::format("{:.2f} {:.2f} {:.2f}", values[0], values[1], values[2]);
 }
 
+// How finely the driver filters textures, and what that means.
+std::string filter_text(const BackendResultInfo& info) {
+  if (info.filter_levels.empty()) return "";
+  constexpr double kEightBits = 300;  // about 256 steps between two texels, however many are asked for
+  std::string levels, coarse;
+  for (const auto& [format, count] : info.filter_levels) {
+    levels += fmt::format("{}{} {:.0f}", levels.empty() ? "" : ", ", format, count);
+    if (count <= kEightBits) coarse += (coarse.empty() ? "" : ", ") + format;
+  }
+  const std::string meaning =
+      coarse.empty() ? "Linear filtering is finer than 8 bits for all of them: it adds no visible error of its own."
+                     : "Linear filtering of " + coarse +
+                           " has only 8 bits: it errs by up to 1/255 of the data's range, "
+                           "whatever the step; a wider texture format avoids it.";
+  return "<p class=\"hint filter\">Filter levels, distinct values of 4096 between two texels 0 and 1: " +
+         escape(levels) + ". " + escape(meaning) + "</p>";
+}
+
 std::string backend(const BackendResultInfo& info) {
   std::string out =
       "<div class=\"card\"><h3>" + escape(info.id) +
@@ -43,7 +61,7 @@ std::string backend(const BackendResultInfo& info) {
   if (info.simd_bits > 0) out += line("SIMD", fmt::format("{} bits", info.simd_bits));
   if (info.threads > 0) out += line("threads", fmt::format("{}", info.threads));
   return out + line("variables", variables(info.env)) + line("capabilities", joined(info.capabilities, ", ")) +
-         line("workarounds", joined(info.workarounds, "; ")) + "</dl></div>";
+         line("workarounds", joined(info.workarounds, "; ")) + "</dl>" + filter_text(info) + "</div>";
 }
 
 }  // namespace

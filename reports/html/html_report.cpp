@@ -29,7 +29,8 @@ std::string script_json(const Json& json) {
 }
 
 std::string results_json(const Results& results) {
-  Json json = to_json(results);
+  Json json;  // what is a table already is not needed a second time
+  json["results"] = to_json(results)["results"];
   drop_samples(json["results"]);
   return script_json(json);
 }
@@ -57,6 +58,12 @@ std::string picture_scripts(const PictureBook& book) {
   std::string out;
   for (size_t i = 0; i < book.base64.size(); ++i)
     out += fmt::format("<script type=\"text/plain\" id=\"picture-{}\">", i) + book.base64[i] + "</script>\n";
+  return out;
+}
+
+std::string note_lines(const std::vector<std::string>& notes) {
+  std::string out;
+  for (const std::string& note : notes) out += "<p class=\"warning\" role=\"note\">" + escape(note) + ".</p>";
   return out;
 }
 
@@ -105,16 +112,18 @@ std::string fill(std::string_view text, const std::map<std::string, std::string,
 }  // namespace html
 
 void write_html_report(const Results& results, const std::filesystem::path& results_dir,
-                       const std::filesystem::path& out) {
+                       const std::filesystem::path& out, const std::vector<std::string>& notes) {
   using namespace html;
   const Model model(results);
   const PictureBook book = read_pictures(model, results_dir);
   const std::string page = fill(page_template(), {{"title", escape(page_title(results))},
                                                   {"style", style_text()},
                                                   {"script", script_text()},
-                                                  {"run", run_line(model)},
+                                                  {"run", run_line(model) + note_lines(notes)},
+                                                  {"answers", answers(model)},
                                                   {"tiles", summary_tiles(model)},
-                                                  {"time_to_error", time_to_error_tables(model)},
+                                                  {"stability", stability_section(model, book)},
+                                                  {"effects", effects_section(model, book)},
                                                   {"scenes", scene_sections(model, book)},
                                                   {"picture_note", picture_note(book)},
                                                   {"problems", problems_section(model)},

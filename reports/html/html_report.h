@@ -3,14 +3,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "reports/results.h"
 
 namespace volumark {
 
 // `results_dir`: where the pictures' paths start. A picture that is missing is a note in the report, not an error.
-// Throws ResultsError where `out` cannot be written; the old file then stays.
+// `notes`: sentences for the top of the page (several runs in one report). Throws ResultsError where `out` cannot be
+// written; the old file then stays.
 void write_html_report(const Results& results, const std::filesystem::path& results_dir,
-                       const std::filesystem::path& out);
+                       const std::filesystem::path& out, const std::vector<std::string>& notes = {});
 
 }  // namespace volumark

@@ -40,6 +40,7 @@
   vm.startFilter();
   vm.startPlots();
   vm.startThumbs();
+  vm.startSpots();
   vm.startViewerKeys();
   vm.viewer.start();
   document.documentElement.dataset.ready = 'true';

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "reports/html/format.h"
 
@@ -28,10 +29,14 @@ Block& block_of(std::vector<Block>& blocks, const Results& results, const CellKe
   return blocks.back();
 }
 
-Row& row_of(Block& block, const CellKey& key) {
+Row& find_row(Block& block, const CellKey& key, const std::string& setting) {
   for (Row& row : block.rows)
-    if (row.method == key.method && row.backend == key.backend) return row;
-  block.rows.push_back({key.method, key.backend, 0, 0, {}});
+    if (row.method == key.method && row.backend == key.backend && row.setting == setting) return row;
+  Row row;
+  row.method = key.method;
+  row.backend = key.backend;
+  row.setting = setting;
+  block.rows.push_back(std::move(row));
   return block.rows.back();
 }
 
@@ -55,18 +60,34 @@ std::set<std::string> varying(const Results& results, const Block& block, const 
   return out;
 }
 
-std::string settings_of(const Results& results, const Result& cell, std::set<std::string> shown) {
+std::string joined(const std::vector<std::string>& words) {
   std::string out;
-  if (cell.quality) {
-    const std::string unit = unit_of(results, cell.key.method, cell.quality->parameter);
-    out = cell.quality->parameter + " " + compact(cell.quality->value) + (unit.empty() ? "" : " " + unit);
-    shown.erase(cell.quality->parameter);
-  }
+  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
+  return out;
+}
+
+// What varies beside the quality axis.
+std::string setting_of(const Result& cell, const std::set<std::string>& shown) {
+  std::vector<std::string> out;
   for (const std::string& name : shown) {
     const auto value = cell.key.params.find(name);
-    if (value != cell.key.params.end()) out += (out.empty() ? "" : ", ") + name + " " + to_text(value->second);
+    if (value == cell.key.params.end() || (cell.quality && cell.quality->parameter == name)) continue;
+    out.push_back(name + " " + to_text(value->second));
   }
-  return out;
+  if (!cell.ignored_effects.empty()) out.push_back("ignores " + joined(cell.ignored_effects));
+  return joined(out);
+}
+
+std::string settings_of(const Results& results, const Result& cell, const std::set<std::string>& shown) {
+  std::vector<std::string> out;
+  if (cell.quality) {
+    const std::string unit = unit_of(results, cell.key.method, cell.quality->parameter);
+    out.push_back(cell.quality->parameter + " " + compact(cell.quality->value) + (unit.empty() ? "" : " " + unit));
+  }
+  if (const std::string setting = setting_of(cell, shown); !setting.empty()) out.push_back(setting);
+  if (!cell.key.variant.empty())
+    out.push_back(cell.key.variant == "none" ? std::string("no effect") : cell.key.variant);
+  return joined(out);
 }
 
 }  // namespace
@@ -74,30 +95,90 @@ std::string settings_of(const Results& results, const Result& cell, std::set<std
 Model::Model(const Results& given) : results(given) {
   for (size_t i = 0; i < results.results.size(); ++i) {
     const CellKey& key = results.results[i].key;
-    Block& block = block_of(blocks, results, key);
-    block.cells.push_back(i);
-    Row& row = row_of(block, key);
-    row.cells.push_back(i);
-    row.method_index = index_of(methods, key.method);
-    row.backend_index = index_of(backends, key.backend);
+    html::block_of(blocks, results, key).cells.push_back(i);
+    index_of(methods, key.method);
+    index_of(backends, key.backend);
   }
   settings.resize(results.results.size());
-  for (Block& block : blocks) {
-    std::stable_sort(block.rows.begin(), block.rows.end(), [](const Row& a, const Row& b) {
-      return std::pair(a.method_index, a.backend_index) < std::pair(b.method_index, b.backend_index);
-    });
-    std::map<std::string, std::set<std::string>> shown;
-    for (const Row& row : block.rows)
-      if (!shown.contains(row.method)) shown[row.method] = varying(results, block, row.method);
-    for (const size_t cell : block.cells)
-      settings[cell] = settings_of(results, results.results[cell], shown[results.results[cell].key.method]);
+  for (Block& block : blocks) fill_rows(block);
+  std::stable_sort(blocks.begin(), blocks.end(), [](const Block& a, const Block& b) { return a.real && !b.real; });
+}
+
+void Model::fill_rows(Block& block) {
+  std::map<std::string, std::set<std::string>> shown;
+  for (const size_t i : block.cells) {
+    const Result& cell = results.results[i];
+    if (!shown.contains(cell.key.method)) shown[cell.key.method] = varying(results, block, cell.key.method);
+    settings[i] = settings_of(results, cell, shown[cell.key.method]);
+    if (!cell.key.variant.empty()) continue;
+    const std::string setting = setting_of(cell, shown[cell.key.method]);
+    Row& row = find_row(block, cell.key, setting);
+    row.cells.push_back(i);
+    row.ranked = cell.ignored_effects.empty();
+    row.method_index = index_of(methods, cell.key.method);
+    row.backend_index = index_of(backends, cell.key.backend);
+    row.setting_index = index_of(block.settings, setting);
   }
+  std::stable_sort(block.rows.begin(), block.rows.end(), [](const Row& a, const Row& b) {
+    return std::tuple(a.method_index, a.backend_index, a.setting_index) <
+           std::tuple(b.method_index, b.backend_index, b.setting_index);
+  });
+  block.real = block.info != nullptr && !block.info->origin.empty() && block.info->origin != "procedural";
+  block.swept =
+      std::any_of(block.rows.begin(), block.rows.end(), [&](const Row& row) { return points(row, "rmse").size() > 1; });
+}
+
+std::string Block::letter(const Row& row) const {
+  if (settings.size() < 2 || row.setting.empty()) return "";
+  std::string out(1, static_cast<char>('a' + row.setting_index % 26));
+  if (row.setting_index >= 26) out += std::to_string(row.setting_index / 26);
+  return out;
+}
+
+std::vector<const Block*> Model::accuracy_blocks() const {
+  std::vector<const Block*> swept, all;
+  for (const Block& block : blocks) {
+    all.push_back(&block);
+    if (block.swept) swept.push_back(&block);
+  }
+  return swept.empty() ? all : swept;
+}
+
+const Block* Model::block_of(const CellKey& key) const {
+  for (const Block& block : blocks)
+    if (block.experiment == key.experiment && block.scene == key.scene) return &block;
+  return nullptr;
+}
+
+const Row* Model::row_of(const Block& block, const CellKey& key) const {
+  for (const Row& row : block.rows) {
+    if (row.method != key.method || row.backend != key.backend) continue;
+    const Result& cell = results.results[row.cells.front()];
+    const std::string axis = cell.quality ? cell.quality->parameter : "";
+    const bool same = std::all_of(key.params.begin(), key.params.end(), [&](const auto& param) {
+      const auto mine = cell.key.params.find(param.first);
+      return param.first == axis || (mine != cell.key.params.end() && mine->second == param.second);
+    });
+    if (same) return &row;
+  }
+  return nullptr;
+}
+
+std::string Model::name(const Block& block, const Row& row) const {
+  return row.method + " on " + row.backend +
+         (block.settings.size() > 1 && !row.setting.empty() ? ", " + row.setting : "");
+}
+
+bool shows_nothing(const Result& result) {
+  return !result.views.empty() && std::all_of(result.views.begin(), result.views.end(),
+                                              [](const ViewResult& view) { return view.shows_nothing; });
 }
 
 std::string Model::title(const Block& block) const {
   std::string out = block.info != nullptr && !block.info->title.empty() ? block.info->title : block.scene;
-  const bool several = std::any_of(blocks.begin(), blocks.end(),
-                                   [&](const Block& other) { return other.experiment != block.experiment; });
+  const bool several = std::any_of(blocks.begin(), blocks.end(), [&](const Block& other) {
+    return other.scene == block.scene && other.experiment != block.experiment;
+  });
   return several ? out + " (" + block.experiment + ")" : out;
 }
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "reports/html/hard_case_summary.h"
+
 namespace volumark::html {
 namespace {
 
@@ -77,16 +79,37 @@ std::vector<size_t> by_importance(const Model& model) {
       longest = std::max(longest, rows.back().size());
     }
   std::vector<size_t> out;
+  for (const Block& block : model.blocks)  // variants of effects are in no row, and are few
+    for (const size_t cell : block.cells)
+      if (!model.results.results[cell].key.variant.empty()) out.push_back(cell);
   for (size_t rank = 0; rank < longest; ++rank)
     for (const auto& row : rows)
       if (rank < row.size()) out.push_back(row[rank]);
   return out;
 }
 
+void read_hard_cases(const Results& results, Reader& reader) {
+  constexpr size_t kFailuresEach = 6;  // of one case: the same defect shows in many rows
+  for (const HardCaseGroup& group : group_cases(results.hard_cases)) {
+    size_t shown = 0;
+    for (const HardCaseRow* row : group.rows) {
+      if (!row->picture && !row->difference) continue;
+      if (shown > 0 && (row->outcome != "fail" || shown >= kFailuresEach)) continue;
+      std::string note;
+      const std::pair pictures(reader.take(row->picture, "picture", note),
+                               reader.take(row->difference, "difference", note));
+      if (pictures.first < 0 && pictures.second < 0) continue;
+      reader.book.hard_cases[static_cast<size_t>(row - results.hard_cases.data())] = pictures;
+      ++shown;
+    }
+  }
+}
+
 }  // namespace
 
 PictureBook read_pictures(const Model& model, const std::filesystem::path& folder, size_t budget) {
   Reader reader(folder, budget);
+  read_hard_cases(model.results, reader);
   for (const size_t cell : by_importance(model)) {
     const Result& result = model.results.results[cell];
     for (size_t v = 0; v < result.views.size(); ++v) {

@@ -21,8 +21,11 @@ struct PictureEntry {
 struct PictureBook {
   std::vector<std::string> base64;    // PNG files
   std::vector<PictureEntry> entries;  // by cell, then view
-  size_t left_out = 0;                // pictures that the size limit kept out
-  size_t missing = 0;                 // pictures that could not be read
+  // Index into Results::hard_cases -> picture and difference (into base64, -1: not there): all that fail, and the worst
+  // row of each case that has pictures.
+  std::map<size_t, std::pair<int, int>> hard_cases;
+  size_t left_out = 0;  // pictures that the size limit kept out
+  size_t missing = 0;   // pictures that could not be read
 };
 
 inline constexpr size_t kPictureBudget = size_t{48} << 20;  // bytes of PNG files in one report

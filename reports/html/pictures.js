@@ -60,7 +60,7 @@ vm.startThumbs = () => {
   }, { rootMargin: '300px' });
   for (const button of all) {
     observer.observe(button);
-    button.addEventListener('click', () => vm.viewer.show(Number(button.dataset.entry), true));
+    button.addEventListener('click', () => vm.viewer.show(Number(button.dataset.entry), true, Number(button.dataset.against ?? -1)));
   }
   addEventListener('beforeprint', () => all.forEach(load));
 };

@@ -1,4 +1,5 @@
-// A section for each scene: what it is, its two plots, how the methods converge, a small picture of each row.
+// A section for each scene: what it is, error against time, small pictures, where the error comes from and lies, how
+// the methods converge and compare.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -24,6 +25,21 @@ std::string facts(const SceneResultInfo& info) {
   return out + "</p>";
 }
 
+// Views whose reference is nothing but background: their errors praise nothing, and they are not ranked.
+std::string empty_views(const Model& model, const Block& block) {
+  std::vector<std::string> names;
+  for (const size_t cell : block.cells)
+    for (const ViewResult& view : model.results.results[cell].views) {
+      const std::string name = view.name.empty() ? fmt::format("view {}", view.index) : view.name;
+      if (view.shows_nothing && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  if (names.empty()) return "";
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + escape(name);
+  return "<p class=\"warning\" role=\"note\">&#9888; Shows nothing but the background: " + list +
+         ". Its errors say nothing, and it is left out of all rankings.</p>";
+}
+
 std::string plots(const Model& model, const Block& block) {
   const std::string rmse = cost_plot(model, block, {"rmse", "RMSE, worst view", kErrorTargets});
   const std::string flip = cost_plot(model, block, {"flip_p99", "FLIP p99, worst view", kFlipTargets});
@@ -44,6 +60,14 @@ std::string plots(const Model& model, const Block& block) {
 std::string bound_text(const Model& model, const PictureEntry& entry) {
   const ViewResult& view = model.results.results[entry.cell].views[entry.view];
   return view.reference ? scientific(view.reference->bound) : "not stated";
+}
+
+std::string picture_badges(const Result& result) {
+  std::string out;
+  for (const std::string& effect : result.ignored_effects)
+    out += "<span class=\"badge bad\">" + escape(effect) + " ignored</span>";
+  if (shows_nothing(result)) out += "<span class=\"badge neutral\">shows nothing</span>";
+  return out;
 }
 
 // The picture of the most accurate cell of each row, beside the reference.
@@ -72,59 +96,68 @@ std::string thumbs(const Model& model, const Block& block, const PictureBook& bo
     out += fmt::format(
         "<li><button type=\"button\" class=\"thumb\" data-entry=\"{}\" data-picture=\"{}\"><span class=\"frame\">"
         "</span><b>{}</b><span>{}</span><span class=\"dim\">{}</span></button></li>",
-        entry, best->rendered, escape(row.method), escape(row.backend), escape(model.settings[best->cell]));
+        entry, best->rendered, escape(row.method), escape(row.backend),
+        escape(model.settings[best->cell]) + picture_badges(model.results.results[best->cell]));
   }
   if (out.empty()) return "<p class=\"note\">No picture of this scene is in the report.</p>";
   return "<ul class=\"thumbs\" aria-label=\"Pictures, the most accurate setting of each; opens the comparison\">" +
          out + "</ul>";
 }
 
-std::string range(const std::vector<double>& values, std::string (*text)(double)) {
-  if (values.empty()) return "";
-  return text(values.front()) + (values.size() > 1 ? " &rarr; " + text(values.back()) : "");
+std::string quoted(const std::string& word) {
+  const bool plain = !word.empty() && word.find_first_not_of(
+                                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                          "0123456789_-+=.,:/") == std::string::npos;
+  if (plain) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
 }
+
+std::string scene_links(const std::vector<const Block*>& blocks) {
+  if (blocks.size() < 2) return "";
+  std::string out = "<ul class=\"jump\" aria-label=\"Scenes\">";
+  for (const Block* block : blocks) out += "<li><a href=\"#" + block->id + "\">" + escape(block->scene) + "</a></li>";
+  return out + "</ul>";
+}
+
+// Which fronts the plots draw as lines: one choice for all scenes, without a script.
+constexpr const char* kFrontChoice =
+    "<input type=\"radio\" name=\"fronts\" id=\"fronts-each\" checked><label for=\"fronts-each\">each method and "
+    "backend</label><input type=\"radio\" name=\"fronts\" id=\"fronts-method\"><label for=\"fronts-method\">each "
+    "method</label><input type=\"radio\" name=\"fronts\" id=\"fronts-backend\"><label for=\"fronts-backend\">each "
+    "backend</label>";
 
 }  // namespace
 
-std::string convergence_table(const Model& model, const Block& block) {
-  std::string rows;
-  for (const Convergence& row : model.results.convergence) {
-    if (row.key.experiment != block.experiment || row.key.scene != block.scene) continue;
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{} {} <span class=\"dim\">({})</span></td>"
-        "<td class=\"num\">{}</td>",
-        escape(row.key.method), escape(row.key.backend), escape(row.parameter), range(row.values, compact),
-        row.values.size(), range(row.errors, scientific));
-    rows += row.fitted_points > 0
-                ? fmt::format(
-                      "<td class=\"num\"><b>{:.2f}</b> <span class=\"dim\">[{:.2f}, {:.2f}]</span></td>"
-                      "<td class=\"num\">{}</td>",
-                      row.fitted, row.fitted_lo, row.fitted_hi, row.fitted_points)
-                : "<td class=\"num\">n/a</td><td class=\"num\">0</td>";
-    rows += fmt::format("<td class=\"num\">{}</td><td class=\"num\">{}</td><td>{}</td><td>{}</td></tr>",
-                        row.expected > 0 ? compact(row.expected) : "n/a",
-                        row.floor > 0 ? scientific(row.floor) : "<span class=\"dim\">falling</span>",
-                        verdict_badge(row.verdict), escape(row.reason));
-  }
-  if (rows.empty()) return "";
-  return "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Convergence\"><table class=\"wide "
-         "convergence\"><caption>Order of convergence: RMSE ~ step<sup>order</sup></caption><thead><tr><th "
-         "scope=\"col\">method</th><th scope=\"col\">backend</th><th scope=\"col\">axis (values)</th><th scope=\"col\" "
-         "class=\"num\">RMSE, coarse to fine</th><th scope=\"col\" class=\"num\">fitted [interval]</th><th "
-         "scope=\"col\" class=\"num\">points</th><th scope=\"col\" class=\"num\">expected</th><th scope=\"col\" "
-         "class=\"num\">floor</th><th scope=\"col\">verdict</th><th scope=\"col\">reason</th></tr></thead><tbody>" +
-         rows + "</tbody></table></div>";
+std::string block_command(const Model& model, const Block& block) {
+  std::string out = "volumark run " + quoted(block.experiment) + " --scene " + quoted(block.scene);
+  for (const std::string& sweep : model.results.run.sweeps) out += " --sweep " + quoted(sweep);
+  const bool ignored = std::any_of(block.cells.begin(), block.cells.end(),
+                                   [&](size_t cell) { return !model.results.results[cell].ignored_effects.empty(); });
+  if (ignored) out += " --ignore-effects";
+  return out;
 }
 
 std::string scene_sections(const Model& model, const PictureBook& book) {
-  std::string out;
-  for (const Block& block : model.blocks) {
-    out += "<section class=\"scene\" id=\"" + block.id + "\"><h3>" + escape(model.title(block)) + "</h3>";
-    if (block.info != nullptr) {
-      if (!block.info->description.empty()) out += "<p>" + escape(block.info->description) + "</p>";
-      out += facts(*block.info);
+  const std::vector<const Block*> blocks = model.accuracy_blocks();
+  if (blocks.empty()) return "<p class=\"note\">The results file holds no cells.</p>";
+  std::string out = scene_links(blocks) +
+                    "<div class=\"front-choice\"><span class=\"picks\" role=\"radiogroup\" aria-label=\"Fronts\">"
+                    "<span class=\"dim\">Lines: front of</span> " +
+                    kFrontChoice + "</span></div>";
+  for (const Block* block : blocks) {
+    out += "<section class=\"scene\" id=\"" + block->id + "\"><h3>" + escape(model.title(*block)) + "</h3>";
+    if (block->info != nullptr) {
+      if (!block->info->description.empty()) out += "<p>" + escape(block->info->description) + "</p>";
+      out += facts(*block->info);
     }
-    out += plots(model, block) + thumbs(model, block, book) + convergence_table(model, block) + "</section>";
+    out += empty_views(model, *block) + plots(model, *block);
+    out += "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Time to error, " +
+           escape(model.title(*block)) + "\">" + time_to_error_table(model, *block) + "</div>";
+    out += fronts_table(model, *block) + thumbs(model, *block, book) + attribution_part(model, *block);
+    out += convergence_part(model, *block) + pairs_part(model, *block) + regions_part(model, *block);
+    out += "<p class=\"hint\">Run this scene again:</p>" + command_box(block_command(model, *block)) + "</section>";
   }
   return out;
 }

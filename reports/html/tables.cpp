@@ -85,6 +85,18 @@ std::string verdict_badge(const std::string& verdict) {
   return fmt::format("<span class=\"badge {}\">{}</span>", good ? "good" : bad ? "bad" : "neutral", escape(verdict));
 }
 
+std::string table_text(const std::string& name, const std::vector<std::pair<std::string, bool>>& columns,
+                       const std::string& rows, const std::string& classes) {
+  const bool sortable = classes.find("sortable") != std::string::npos;
+  return "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"" + escape(name) + "\"><table class=\"" +
+         classes + "\">" + head(columns, sortable) + "<tbody>" + rows + "</tbody></table></div>";
+}
+
+std::string folded(const std::string& title, const std::string& inside, bool open) {
+  return "<details class=\"fold\"" + std::string(open ? " open" : "") + "><summary>" + title + "</summary>" + inside +
+         "</details>";
+}
+
 std::string problems_section(const Model& model) {
   std::string rows;
   for (size_t i = 0; i < model.results.results.size(); ++i) {

@@ -1,4 +1,4 @@
-// The answer to "what does accuracy cost": a table for each scene.
+// Time to error of one scene, in full: every method, backend and setting, for each target.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,24 +31,19 @@ struct Entry {
 Entry entry_of(const Model& model, const Row& row, const Column& column) {
   const std::vector<CostPoint> points = model.points(row, column.metric);
   Entry out{time_to_error(points, column.target), ""};
-  if (!out.answer.interpolated) return out;
-  const std::vector<size_t> front = pareto_front(points);
-  for (size_t i = 1; i < front.size(); ++i)
-    if (points[front[i]].error <= column.target) {
-      out.between =
-          "between " + model.settings[points[front[i - 1]].result] + " and " + model.settings[points[front[i]].result];
-      break;
-    }
+  if (out.answer.interpolated)
+    out.between = model.settings[out.answer.coarse] + " and " + model.settings[out.answer.fine];
   return out;
 }
 
 std::string reached_text(const Entry& entry, bool least) {
   const TimeToError& answer = entry.answer;
   const char* mark = answer.interpolated ? "" : "<span class=\"mark\">&le;&thinsp;</span>";
-  const std::string why =
-      answer.interpolated ? "interpolated " + entry.between : "the fastest setting measured already reaches this";
-  return fmt::format("<td class=\"num{}\" title=\"{}\">{}{}</td>", least ? " least" : "", escape(why), mark,
-                     milliseconds(*answer.seconds));
+  const std::string why = answer.interpolated ? "interpolated between " + entry.between
+                                              : "the fastest setting measured already reaches this";
+  return fmt::format("<td class=\"num{}\" title=\"{}\">{}{}{}</td>", least ? " least" : "", escape(why), mark,
+                     milliseconds(*answer.seconds),
+                     answer.interpolated ? "<span class=\"between\">" + escape(entry.between) + "</span>" : "");
 }
 
 // A target that was missed, with the `columns - 1` finer ones after it.
@@ -64,6 +59,10 @@ std::string missed_text(const Entry& entry, int columns) {
 }
 
 std::string outcomes_of(const Model& model, const Row& row) {
+  if (std::any_of(row.cells.begin(), row.cells.end(),
+                  [&](size_t i) { return shows_nothing(model.results.results[i]); }))
+    return "the views show nothing but the background, so there is nothing to rank";
+  if (!row.ranked) return "not ranked: " + row.setting + ", so it draws another picture";
   std::string out;
   for (const size_t cell : row.cells) {
     const std::string name = to_string(model.results.results[cell].outcome);
@@ -95,6 +94,12 @@ std::string conditions(const Model& model, const Block& block) {
                           : fmt::format(", reference within {}{}", scientific(bound), estimate ? " (estimate)" : ""));
 }
 
+std::string setting_text(const Block& block, const Row& row) {
+  if (block.settings.size() < 2 || row.setting.empty()) return "";
+  return "<span class=\"setting\"><b>" + block.letter(row) + "</b> " + escape(row.setting) + "</span>" +
+         (row.ranked ? "" : " <span class=\"badge\">not ranked</span>");
+}
+
 std::string head() {
   std::string out =
       "<thead><tr><th rowspan=\"2\" scope=\"col\">method</th><th rowspan=\"2\" scope=\"col\">backend</th>"
@@ -119,28 +124,32 @@ std::string time_to_error_table(const Model& model, const Block& block) {
   auto is_least = [&](size_t row, size_t column) {
     const auto& mine = entries[row][column].answer.seconds;
     const bool software = model.is_software(block.rows[row].backend);
-    if (!mine) return false;
+    if (!mine || !block.rows[row].ranked) return false;
     for (size_t other = 0; other < block.rows.size(); ++other) {
       const auto& theirs = entries[other][column].answer.seconds;
-      if (theirs && *theirs < *mine && model.is_software(block.rows[other].backend) == software) return false;
+      if (theirs && *theirs < *mine && block.rows[other].ranked &&
+          model.is_software(block.rows[other].backend) == software)
+        return false;
     }
     return true;
   };
   std::string out = fmt::format(
-      "<table class=\"tte\" data-experiment=\"{}\" data-scene=\"{}\"><caption><a href=\"#{}\">{}</a> <span "
+      "<table class=\"tte\" data-experiment=\"{}\" data-scene=\"{}\"><caption>Time to error, ms a frame <span "
       "class=\"dim\">{}</span></caption>",
-      escape(block.experiment), escape(block.scene), block.id, escape(model.title(block)), conditions(model, block));
+      escape(block.experiment), escape(block.scene), conditions(model, block));
   out += head() + "<tbody>";
   for (size_t r = 0; r < block.rows.size(); ++r) {
     const Row& row = block.rows[r];
-    out += fmt::format("<tr data-method=\"{}\" data-backend=\"{}\"{}>", escape(row.method), escape(row.backend),
+    out += fmt::format("<tr data-method=\"{}\" data-backend=\"{}\" data-setting=\"{}\"{}>", escape(row.method),
+                       escape(row.backend), escape(row.setting),
                        r > 0 && block.rows[r - 1].method != row.method ? " class=\"first\"" : "");
     if (r == 0 || block.rows[r - 1].method != row.method) {
       const auto count = std::count_if(block.rows.begin(), block.rows.end(),
                                        [&](const Row& other) { return other.method == row.method; });
       out += fmt::format("<th scope=\"rowgroup\" rowspan=\"{}\">{}</th>", count, escape(row.method));
     }
-    out += fmt::format("<th scope=\"row\">{}{}</th>", escape(row.backend), software_tag(model, row.backend));
+    out += fmt::format("<th scope=\"row\">{}{}{}</th>", escape(row.backend), software_tag(model, row.backend),
+                       setting_text(block, row));
     const bool nothing = std::all_of(entries[r].begin(), entries[r].end(), [](const Entry& entry) {
       return !entry.answer.seconds && !std::isfinite(entry.answer.best_error);
     });
@@ -162,15 +171,6 @@ std::string time_to_error_table(const Model& model, const Block& block) {
     out += "</tr>";
   }
   return out + "</tbody></table>";
-}
-
-std::string time_to_error_tables(const Model& model) {
-  if (model.blocks.empty()) return "<p class=\"note\">The results file holds no cells.</p>";
-  std::string out = "<div class=\"cards\">";
-  for (const Block& block : model.blocks)
-    out += "<div class=\"card scroll\" tabindex=\"0\" role=\"group\" aria-label=\"Time to error, " +
-           escape(model.title(block)) + "\">" + time_to_error_table(model, block) + "</div>";
-  return out + "</div>";
 }
 
 }  // namespace volumark::html

@@ -55,6 +55,8 @@ vm.viewer = (() => {
       for (const [name, key] of [['RMSE', 'rmse'], ['max', 'max'], ['FLIP p99', 'flip_p99'], ['SSIM', 'ssim']])
         box.append(item(name, key === 'ssim' ? (view.error.ssim ?? NaN).toFixed(4) : key === 'flip_p99' ? vm.number(view.error[key]) : vm.scientific(view.error[key])));
     if (view.reference) box.append(item('reference bound', vm.scientific(view.reference.bound) + (view.reference.estimate ? ' (estimate)' : '')));
+    if (result.ignored_effects?.length > 0) box.append(vm.make('span', { className: 'badge bad', textContent: `${result.ignored_effects.join(', ')} ignored: the picture lacks it` }));
+    if (view.shows_nothing) box.append(vm.make('span', { className: 'badge neutral', textContent: 'shows nothing but the background: its errors say nothing' }));
     if (result.outcome !== 'ok') box.append(item('outcome', `${result.outcome}: ${result.reason}`));
     box.append(vm.commandBox(result.command));
   };
@@ -115,10 +117,12 @@ vm.viewer = (() => {
     vm.say(modeNames[mode] + (message() ? `: ${message()}` : ''));
   };
 
-  const show = (entry, scroll = false) => {
+  // `against`: another entry to compare with; without it the choice stays.
+  const show = (entry, scroll = false, against = null) => {
     const next = entries[entry], block = blockOf(next);
     if (blockOf(current()) !== block) { state.centre = null; state.scale = 0; state.pixel = null; }
     state.entry = entry;
+    if (against !== null) state.against = against;
     reload();
     if (scroll) {
       vm.byId('images').scrollIntoView();

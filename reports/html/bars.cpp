@@ -1,0 +1,59 @@
+#include "reports/html/bars.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/html/format.h"
+
+namespace volumark::html {
+namespace {
+
+constexpr double kNarrow = 0.045;  // of the bar: too narrow for a letter
+
+}  // namespace
+
+std::string bar(double share, size_t pattern, const std::string& words) {
+  const double width = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0;
+  return fmt::format(
+      "<span class=\"bar\"><span class=\"track\"><span class=\"fill p{}\" style=\"width:{:.2f}%\"></span></span>"
+      "<span class=\"words\">{}</span></span>",
+      pattern % kPatterns, 100 * width, words);
+}
+
+std::string bound_bar(double share) {
+  const double inside = std::clamp(share, 0.0, 1.0), beyond = std::clamp(share - 1, 0.0, 1.0 / 3);
+  return fmt::format(
+      "<span class=\"bound-bar{}\" aria-hidden=\"true\"><span class=\"fill p0\" "
+      "style=\"width:{:.2f}%\"></span>{}</span>",
+      share > 1 ? " over" : "", 75 * (std::isnan(share) ? 0 : inside),
+      share > 1 ? fmt::format("<span class=\"fill p1\" style=\"width:{:.2f}%\"></span>", 75 * beyond) : "");
+}
+
+std::string swatch(size_t pattern) {
+  return fmt::format("<span class=\"swatch fill p{}\" aria-hidden=\"true\"></span>", pattern % kPatterns);
+}
+
+std::string stacked_bar(const std::vector<Segment>& segments) {
+  double below = 0, above = 0;
+  for (const Segment& segment : segments) (segment.share < 0 ? below : above) += std::abs(segment.share);
+  const double whole = below + std::max(above, 1.0);
+  auto place = [&](double value) { return 100 * (below + value) / whole; };
+  std::string out = "<span class=\"stack\" aria-hidden=\"true\">";
+  double right = 0, left = 0;
+  for (const Segment& segment : segments) {
+    const double size = std::abs(segment.share);
+    if (segment.share < 0) left -= size;
+    const double from = segment.share < 0 ? left : right;
+    if (segment.share >= 0) right += size;
+    out += fmt::format("<span class=\"fill p{}\" style=\"left:{:.3f}%;width:{:.3f}%\" title=\"{}\">{}</span>",
+                       segment.pattern % kPatterns, place(from), 100 * size / whole, escape(segment.title),
+                       size / whole > kNarrow ? "<b>" + escape(segment.letter) + "</b>" : "");
+  }
+  out += fmt::format("<i class=\"at-one\" style=\"left:{:.3f}%\"></i>", place(1));
+  if (below > 0) out += fmt::format("<i class=\"at-zero\" style=\"left:{:.3f}%\"></i>", place(0));
+  return out + "</span>";
+}
+
+}  // namespace volumark::html

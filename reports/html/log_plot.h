@@ -1,0 +1,43 @@
+// What the log-log plots share: the drawing's size, axes with ticks and titles, lines, and points that keys can reach.
+#pragma once
+
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reports/html/log_axis.h"
+#include "reports/html/model.h"
+
+namespace volumark::html {
+
+inline constexpr double kPlotWidth = 640, kPlotHeight = 400;
+
+struct PlotAxes {
+  LogAxis x, y;
+  double x_unit = 1;  // ticks show the value times this: 1e3 for milliseconds
+  std::string x_title, y_title;
+  std::span<const double> targets;  // dotted lines across
+};
+
+LogAxis plot_x_axis(double lo, double hi);  // positive values
+LogAxis plot_y_axis(double lo, double hi);
+std::string plot_frame(const PlotAxes& axes);
+
+std::string plot_line(const PlotAxes& axes, const std::vector<std::pair<double, double>>& values,
+                      const std::string& classes);
+// A word at a place of the plot, to the right of it, or to the left where the frame ends.
+std::string plot_label(const PlotAxes& axes, double x, double y, const std::string& text, const std::string& classes);
+
+struct PlotPoint {
+  double x = 0, y = 0;
+  double x_lo = 0, x_hi = 0, y_lo = 0, y_hi = 0;  // intervals, drawn as bars
+  std::string classes, label;                     // label: what it says under the pointer and to readers
+  std::string data;                               // attributes, escaped
+};
+std::string plot_point(const PlotAxes& axes, const Row& row, const PlotPoint& point);
+
+// <li> of a legend: line and marker of a row, and its name.
+std::string legend_entry(const Model& model, const Block& block, const Row& row);
+
+}  // namespace volumark::html
