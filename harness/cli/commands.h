@@ -39,6 +39,7 @@ void add_run(CLI::App& app, const Globals& globals, Action& action);
 void add_report(CLI::App& app, const Globals& globals, Action& action);
 void add_diff(CLI::App& app, const Globals& globals, Action& action);
 void add_validate(CLI::App& app, const Globals& globals, Action& action);
+void add_verify(CLI::App& app, const Globals& globals, Action& action);
 void add_bench(CLI::App& app, const Globals& globals, Action& action);
 void add_probe(CLI::App& app, const Globals& globals, Action& action);
 

@@ -86,6 +86,7 @@ int parse_and_run(int argc, char** argv) {
   add_report(app, globals, action);
   add_diff(app, globals, action);
   add_validate(app, globals, action);
+  add_verify(app, globals, action);
   add_bench(app, globals, action);
   add_probe(app, globals, action);
   try {

@@ -1,4 +1,4 @@
-#include "tests/unit/reference/brute_force.h"
+#include "harness/verify/brute_force.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <glm/glm.hpp>
 #include <numbers>
 
-namespace volumark::test {
+namespace volumark::brute {
 namespace {
 
 using Real = long double;
@@ -366,4 +366,4 @@ Scene scene_of(Volume volume, std::vector<TransferPoint> points) {
 
 Ray ray_between(const glm::dvec3& from, const glm::dvec3& to) { return {from, glm::normalize(to - from), 0}; }
 
-}  // namespace volumark::test
+}  // namespace volumark::brute

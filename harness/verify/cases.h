@@ -1,0 +1,37 @@
+// The functions of the hard cases, one family a file; case_list.cpp says which is which.
+#pragma once
+
+#include "harness/verify/case_run.h"
+
+namespace volumark::hard_cases {
+
+// closed_form.cpp
+void slab(CaseRun& run);
+void sphere(CaseRun& run);
+void grazing_shell(CaseRun& run);
+void clip_planes(CaseRun& run);
+// segments.cpp
+void preintegration_table(CaseRun& run);
+void linear_segment(CaseRun& run);
+void opacity_correction(CaseRun& run);
+void associated_colours(CaseRun& run);
+// fields.cpp
+void plane_field(CaseRun& run);
+void sphere_field(CaseRun& run);
+void marschner_lobb(CaseRun& run);
+// precision.cpp
+void eight_bit_accumulation(CaseRun& run);
+void eight_bit_target(CaseRun& run);
+void many_segments(CaseRun& run);
+void scale_and_place(CaseRun& run);
+// data.cpp
+void refused_data(CaseRun& run);
+void degenerate_volumes(CaseRun& run);
+void extreme_transfer(CaseRun& run);
+// reference_cases.cpp
+void reference_on_levels(CaseRun& run);
+void reference_bound(CaseRun& run);
+// agreement.cpp
+void agreement(CaseRun& run);
+
+}  // namespace volumark::hard_cases

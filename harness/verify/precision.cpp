@@ -1,0 +1,113 @@
+// Few bits and many additions, and scenes of any size at any place.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "harness/verify/cases.h"
+#include "harness/verify/test_scenes.h"
+
+namespace volumark::hard_cases {
+namespace {
+
+double centre(const Image& image) { return static_cast<double>(image.pixel(image.width / 2, image.height / 2)[0]); }
+
+// The level of 255 that `slices` layers over an optical depth end at, in a target of 8 bits a channel.
+double level_of(CaseRun& run, int slices, double depth) {
+  const Scene scene = scene_of(volume_of(ConstantField{1}, {33, 33, 33}), homogeneous(depth / 2));
+  const Values values = run.stepped(32. / slices, {{"target_format", "rgba8"}});
+  return 255 * centre(run.draw(scene, values, orthographic({0, 0, -1}, 1.4), 8, 8));
+}
+
+Scene transformed(const Scene& scene, double scale, const glm::dvec3& place) {
+  Scene out = scene;
+  Volume volume = *scene.volume;
+  volume.spacing *= scale;
+  volume.origin = volume.origin * scale + place;
+  out.volume = std::make_shared<const Volume>(std::move(volume));
+  for (TransferPoint& point : out.transfer.points) point.extinction /= scale;
+  for (View& view : out.views) {
+    view.eye = view.eye * scale + place;
+    view.target = view.target * scale + place;
+    view.near *= scale;
+    view.half_height *= scale;
+  }
+  return out;
+}
+
+}  // namespace
+
+void eight_bit_accumulation(CaseRun& run) {
+  const char* const source =
+      "a layer rounds to 0 of 255 below half a level; a blend that changes less than half a level "
+      "changes nothing";
+  run.add({.check = "slab of optical depth 1 in 256 slices, of 255 (exact: 161.19)",
+           .expected = 128,
+           .measured = level_of(run, 256, 1),
+           .bound = 0.01,
+           .source = source});
+  run.add({.check = "slab of optical depth 1 in 512 slices, of 255 (exact: 161.19)",
+           .expected = 0,
+           .measured = level_of(run, 512, 1),
+           .bound = 0.01,
+           .source = source});
+  // Layers of opacity k / 255, until nothing changes: ceil(255 - 127.5 / k).
+  constexpr int kLayers = 1024;
+  for (const int k : {1, 2, 4, 8, 16})
+    run.add({.check = fmt::format("white of opacity {}/255 onto black stalls, of 255", k),
+             .expected = std::ceil(255 - 127.5 / k),
+             .measured = level_of(run, kLayers, -kLayers * std::log1p(-k / 255.)),
+             .bound = 0.01,
+             .source = "ceil(255 - 127.5 / k)"});
+}
+
+void eight_bit_target(CaseRun& run) {
+  // Each of up to 16 slices rounds by half a level; a method that rounds once is well within.
+  const Scene scene = small_cloud();
+  const auto picture = [&](const char* format) {
+    return run.draw(scene, run.stepped(4, {{"target_format", format}}), scene.views[0], 48, 48);
+  };
+  const Image full = picture("rgba32f");
+  const double slices = std::ceil(std::sqrt(3.) * 31 / 4) + 1;
+  if (run.has("target_format", "rgba16f"))
+    run.add_equal("rgba16f against rgba32f", picture("rgba16f"), full, slices * 0x1p-11,
+                  fmt::format("{} blends of at most 2^-11 each, where drivers truncate", slices));
+  run.add_equal("rgba8 against rgba32f", picture("rgba8"), full, (slices + 1) * 0.5 / 255 * 2,
+                fmt::format("{} blends, of which layer and sum round by half a level each", slices));
+}
+
+void many_segments(CaseRun& run) {
+  // One pixel; the box is n steps deep, so that its width is what makes a voxel small enough.
+  for (const double n : {1e3, 1e4, 1e5}) {
+    const double smallest = std::min(2. / n * 64, 1.);
+    Volume volume = volume_of(ConstantField{1}, {3, 3, 3});
+    volume.spacing = {smallest, smallest, 1};
+    volume.origin = {-smallest, -smallest, -1};
+    const Scene scene = scene_of(std::move(volume), homogeneous(0.5));
+    const Image image = run.draw(scene, run.stepped(2. / n / smallest), orthographic({0, 0, -1}, smallest / 2), 1, 1);
+    // Rounding errors of n blends, each uniform within 2^-25 of values below 1: six standard deviations of their sum;
+    // and the opacity of a segment, off by up to 2^-22 of itself.
+    run.add(
+        {.check = fmt::format("optical depth 1 in {:g} segments", n),
+         .expected = kSlabDepth,
+         .measured = centre(image),
+         .bound = 6 * std::sqrt(n / 3) * 0x1p-25 + 0x1p-21,
+         .source = "six standard deviations of n roundings of 2^-25; with 1 - exp in floats 1e5 segments err by 1e-3"});
+  }
+}
+
+void scale_and_place(CaseRun& run) {
+  // What differs is float rounding that falls differently: a sample's place is good to 2^-20 of the box, the field
+  // changes by at most 20 over the box and the extinction by 6 a unit of value, over a path of one unit.
+  constexpr double kBound = 0x1p-20 * 20 * 6;
+  const char* const source = "places to 2^-20 of the box, a field that changes by at most 20 over it, extinction 6";
+  const Scene scene = small_cloud();
+  const auto picture = [&](const Scene& other) { return run.draw(other, run.stepped(1), other.views[0], 48, 48); };
+  const Image base = picture(scene);
+  for (const double scale : {1e-6, 1e6})
+    run.add_equal(fmt::format("scaled by {:g}", scale), picture(transformed(scene, scale, glm::dvec3(0))), base, kBound,
+                  source);
+  run.add_equal("moved by (1e6, -1e6, 1e6)", picture(transformed(scene, 1, {1e6, -1e6, 1e6})), base, kBound, source);
+}
+
+}  // namespace volumark::hard_cases
