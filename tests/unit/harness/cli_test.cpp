@@ -110,6 +110,12 @@ TEST_F(Cli, UsageErrorsExitWithTwo) {
   expect("run quick --scene spere", 2, "did you mean \"sphere\"?");
   expect("run quick --backend gpu", 2, "unknown backend");
   expect("run quick --scene slab --out /proc/nowhere", 2, "output folder");
+  expect("run accuracy --sweep stp=1", 2, "did you mean \"step\"?");
+  expect("run accuracy --sweep step=fine", 2, "expected a number");
+  expect("run accuracy --sweep step=4..1*2", 2, "is empty");
+  expect("run accuracy --sweep step=1,1", 2, "named twice");
+  expect("run accuracy --sweep target_format=rgba9", 2, "unknown value");
+  expect("run accuracy --sweep table_size=2..1001+1", 2, "more than 20000 cells");
   expect("validate nowhere.json", 2, "cannot be read");
   expect("report nowhere", 2, "cannot be read");
   expect("diff a.pfm b.pfm", 2, "cannot be read");
@@ -166,6 +172,20 @@ TEST_F(Cli, OneCellRunsAgainByItsCommand) {
   const Json again = Json::parse(text_of_file(folder_.path() / "out/again" / "results.json"));
   ASSERT_EQ(again["results"].size(), 1U);
   EXPECT_EQ(again["results"][0]["key"], json["results"][5]["key"]);
+}
+
+TEST_F(Cli, ASweptCellRunsAgainByItsCommand) {
+  write_experiment(0);
+  expect("run ./tiny.json --out out --sweep table_size=64,256", 0, "out/results.json");
+  const Json json = Json::parse(text_of_file(folder_.path() / "out" / "results.json"));
+  const Json& cell = json["results"][2];
+  const std::string command = cell["command"];
+  EXPECT_NE(command.find(" --sweep table_size="), std::string::npos) << command;
+  expect(command.substr(9), 0, "out/again/results.json");
+  const Json again = Json::parse(text_of_file(folder_.path() / "out/again" / "results.json"));
+  ASSERT_EQ(again["results"].size(), 1U);
+  EXPECT_EQ(again["results"][0]["key"], cell["key"]);
+  expect("run ./tiny.json --out out --resume", 2, "--sweep: table_size=64,256, now none");
 }
 
 TEST_F(Cli, AKillLosesOneCellAtMostAndResumeGoesOn) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "harness/run_folder.h"
@@ -50,6 +51,7 @@ class RunnerTest : public testing::Test {
     options.overwrite = overwrite_;
     options.progress = log_;
     options.cell.stop = &stop_;
+    if (change_) change_(options);
     return run_experiments(options);
   }
   ~RunnerTest() override { std::fclose(log_); }
@@ -57,6 +59,7 @@ class RunnerTest : public testing::Test {
   TestFolder folder_;
   bool resume_ = false, overwrite_ = false;
   std::atomic<bool> stop_{false};
+  std::function<void(RunOptions&)> change_;
   std::FILE* log_ = std::tmpfile();
 };
 
@@ -67,7 +70,7 @@ TEST_F(RunnerTest, EveryCellHasSamplesErrorsAndAValidFile) {
     EXPECT_EQ(result.outcome, Outcome::Ok) << result.reason;
     ASSERT_TRUE(result.metrics);
     EXPECT_EQ(result.metrics->frame_wall.samples.size(), 4U);  // 2 passes of 2 views
-    EXPECT_EQ(result.metrics->frame_wall.views, (std::vector<int64_t>{0, 1, 0, 1}));
+    EXPECT_EQ(result.metrics->frame_wall.views, (std::vector<int64_t>{0, 1, 1, 0}));
     EXPECT_TRUE(result.metrics->frame_wall.first);
     EXPECT_EQ(result.views.size(), 2U);
     ASSERT_TRUE(result.error);
@@ -168,6 +171,108 @@ TEST_F(RunnerTest, ResultsOfAnotherCommitAreNotMixed) {
   write_results(results, folder_.path() / "out" / "results.json");
   resume_ = true;
   EXPECT_THROW(run(experiment()), FolderError);
+}
+
+// The refusal of --resume with `change`; "went on" where there was none.
+std::string refusal(const std::function<RunOutcome()>& resume) {
+  try {
+    resume();
+  } catch (const FolderError& error) {
+    return error.what();
+  }
+  return "went on";
+}
+
+TEST_F(RunnerTest, ResumeNamesWhatDiffers) {
+  run(experiment());
+  const Results kept = read_results(folder_.path() / "out");
+  resume_ = true;
+  const auto with = [&](const std::function<void(Results&)>& edit) {
+    Results results = kept;
+    edit(results);
+    write_results(results, folder_.path() / "out" / "results.json");
+    return refusal([&] { return run(experiment()); });
+  };
+  EXPECT_EQ(with([](Results&) {}), "went on");
+  EXPECT_NE(with([](Results& r) { r.build.type = "Slow"; }).find("build type: Slow, now "), std::string::npos);
+  EXPECT_NE(with([](Results& r) { r.build.version = "1"; }).find("compiler: "), std::string::npos);
+  EXPECT_NE(with([](Results& r) { r.machine.cpu = "Z80"; }).find("processor: Z80"), std::string::npos);
+  EXPECT_NE(with([](Results& r) { r.run.device["threads"] = "7"; }).find("threads: 7, now 0"), std::string::npos);
+  EXPECT_NE(with([](Results& r) { r.run.device["vk_device"] = "big"; }).find("vk_device: big, now none"),
+            std::string::npos);
+  EXPECT_NE(with([](Results& r) { r.machine.env["LP_PERF"] = "fast"; }).find("LP_PERF: fast, now none"),
+            std::string::npos);
+  const std::string two = with([](Results& r) {
+    r.git.sha = "abc";
+    r.run.sweeps = {"step=4"};
+  });
+  EXPECT_NE(two.find("commit: abc"), std::string::npos) << two;
+  EXPECT_NE(two.find("--sweep: step=4, now none"), std::string::npos) << two;
+  EXPECT_NE(two.find("--overwrite"), std::string::npos) << two;
+}
+
+TEST_F(RunnerTest, RunsWithSweepsAreToldApart) {
+  change_ = [](RunOptions& options) { options.sweeps = {parse_sweep("step=4,2")}; };
+  const RunOutcome swept = run(experiment());
+  EXPECT_EQ(swept.results.results.size(), 2U);
+  EXPECT_EQ(swept.results.run.sweeps, std::vector<std::string>{"step=4,2"});
+  resume_ = true;
+  EXPECT_EQ(run(experiment()).skipped, 2);
+  change_ = nullptr;
+  EXPECT_NE(refusal([&] { return run(experiment()); }).find("--sweep: step=4,2, now none"), std::string::npos);
+}
+
+TEST_F(RunnerTest, ABrokenResultsFileIsReplacedOnRequestOnly) {
+  run(experiment());
+  folder_.write("out/results.json", "{ broken");
+  EXPECT_THROW(run(experiment()), ResultsError);
+  resume_ = true;
+  EXPECT_THROW(run(experiment()), ResultsError);
+  resume_ = false;
+  overwrite_ = true;
+  EXPECT_EQ(run(experiment()).results.results.size(), 3U);
+}
+
+TEST_F(RunnerTest, ResultsAreInThePlansOrderWhateverTheOrderOfMeasuring) {
+  Json json = experiment();
+  json["backends"] = {"null", "cpu"};
+  json["methods"] = {{{"method", "texture3d_slices"}, {"sweep", {8, 4, 2, 1, 0.5}}}};
+  const RunOutcome outcome = run(json);
+  ASSERT_EQ(outcome.results.results.size(), 10U);
+  const double steps[] = {8, 4, 2, 1, 0.5};
+  for (size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(outcome.results.results[i].quality->value, steps[i / 2]);
+    EXPECT_EQ(outcome.results.results[i].key.backend, i % 2 == 0 ? "null" : "cpu");
+  }
+}
+
+TEST_F(RunnerTest, AReferenceThatTakesTooLongSaysWhatToDo) {
+  Json json = experiment();
+  json["reference_budget"] = 1e-6;
+  RunOutcome outcome = run(json);
+  ASSERT_EQ(outcome.results.results.size(), 3U);
+  EXPECT_EQ(outcome.results.results[0].outcome, Outcome::Unsupported);
+  for (const char* word : {"2 views of 16 x 16 pixels", "4 x 4 x 4 voxels", "--no-reference", "reference_budget"})
+    EXPECT_NE(outcome.results.results[0].reason.find(word), std::string::npos) << outcome.results.results[0].reason;
+  overwrite_ = true;
+  change_ = [](RunOptions& options) { options.references = false; };
+  outcome = run(json);
+  for (const Result& result : outcome.results.results) {
+    EXPECT_EQ(result.outcome, Outcome::Ok) << result.reason;
+    EXPECT_TRUE(result.metrics);
+    EXPECT_FALSE(result.error);
+    EXPECT_NE(result.command.find("--no-reference"), std::string::npos);
+  }
+  EXPECT_TRUE(outcome.results.attribution.empty());
+  EXPECT_TRUE(outcome.bad_news.empty());
+}
+
+TEST_F(RunnerTest, CachedReferencesCostNothing) {
+  run(experiment());
+  Json json = experiment();
+  json["reference_budget"] = 1e-6;
+  overwrite_ = true;
+  EXPECT_EQ(run(json).results.results[0].outcome, Outcome::Ok);
 }
 
 TEST_F(RunnerTest, UnsupportedParametersEndAsUnsupported) {
