@@ -1,6 +1,7 @@
 // volumark list: what there is. Opens no driver unless asked to.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/commands.h"
@@ -61,6 +62,21 @@ Json methods_json() {
   return out;
 }
 
+// The vocabulary, and who simulates what.
+Json effects_json() {
+  Json out = Json::array();
+  for (const EffectInfo& effect : effect_list()) {
+    std::vector<std::string> methods;
+    for (const Method* method : method_list()) {
+      const std::vector<std::string>& simulated = method->info().effects;
+      if (std::find(simulated.begin(), simulated.end(), effect.name) != simulated.end())
+        methods.push_back(method->info().name);
+    }
+    out.push_back({{"name", effect.name}, {"title", effect.title}, {"methods", methods}});
+  }
+  return out;
+}
+
 Json backends_json(bool probe, const Globals& globals) {
   Json out = Json::array();
   for (const BackendEntry& entry : backend_list()) {
@@ -116,6 +132,11 @@ void print_text(const std::string& heading, const Json& rows) {
   for (const Json& row : rows) {
     fmt::print("  {:<20} {}\n", row["name"].get<std::string>(), row["title"].get<std::string>());
     if (row.contains("parameters")) print_parameters(row);
+    if (row.contains("methods")) {
+      const auto methods = row["methods"].get<std::vector<std::string>>();
+      fmt::print("  {:<20}   {}\n", "",
+                 methods.empty() ? "no method simulates it" : fmt::format("simulated by {}", fmt::join(methods, ", ")));
+    }
     if (row.contains("opens"))
       fmt::print("  {:<20}   {}\n", "",
                  row["opens"].get<bool>()
@@ -126,7 +147,7 @@ void print_text(const std::string& heading, const Json& rows) {
 }
 
 int list(const ListOptions& options, const Globals& globals) {
-  static const std::vector<std::string> kinds = {"scenes", "methods", "backends", "experiments"};
+  static const std::vector<std::string> kinds = {"scenes", "methods", "effects", "backends", "experiments"};
   if (!options.what.empty() && std::find(kinds.begin(), kinds.end(), options.what) == kinds.end())
     throw UsageError(fmt::format("list {}: unknown kind{}; known: {}", options.what, did_you_mean(options.what, kinds),
                                  fmt::join(kinds, ", ")));
@@ -135,6 +156,7 @@ int list(const ListOptions& options, const Globals& globals) {
     if (!options.what.empty() && options.what != kind) continue;
     all[kind] = kind == "scenes"     ? scenes_json()
                 : kind == "methods"  ? methods_json()
+                : kind == "effects"  ? effects_json()
                 : kind == "backends" ? backends_json(options.probe, globals)
                                      : experiments_json();
   }
@@ -151,8 +173,8 @@ int list(const ListOptions& options, const Globals& globals) {
 
 void add_list(CLI::App& app, const Globals& globals, Action& action) {
   auto options = std::make_shared<ListOptions>();
-  CLI::App* command = app.add_subcommand("list", "Scenes, methods, backends and experiments that there are");
-  command->add_option("what", options->what, "scenes, methods, backends or experiments (default: all)");
+  CLI::App* command = app.add_subcommand("list", "Scenes, methods, effects, backends and experiments that there are");
+  command->add_option("what", options->what, "scenes, methods, effects, backends or experiments (default: all)");
   command->add_flag("--json", options->json, "as JSON");
   command->add_flag("--probe", options->probe, "open each backend and say what it is");
   command->footer("Example: volumark list methods --json");

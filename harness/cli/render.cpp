@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "harness/cli/commands.h"
+#include "harness/effect_variants.h"
 #include "harness/frame.h"
 #include "harness/image_io.h"
 #include "harness/progress.h"
@@ -15,6 +16,7 @@ struct RenderOptions {
   std::string scene, method, backend = "cpu", out, size;
   std::vector<std::string> set;
   int view = 0;
+  bool ignore_effects = false;
 };
 
 const View& view_of(const Scene& scene, int index) {
@@ -29,12 +31,36 @@ void render_with_reference(const RenderOptions& options, const Scene& scene, int
   reference_options.threads = threads;
   const Instant start = now();
   const Reference reference = render_reference(scene, view_of(scene, options.view), width, height, reference_options);
-  write_image(options.out, reference.image, scene.background);
+  write_image(options.out, reference.image, scene.background, ignored_note(scene.effects.others));
   fmt::print("{}: {}x{}, reference, {}; largest error bound {:.2e}{}\n", options.out, width, height,
              duration_text(since(start).wall), reference.max_bound, reference.estimate ? " (an estimate)" : "");
 }
 
-int render_with_method(const RenderOptions& options, const Scene& scene, int width, int height,
+int refuse(const std::string& reason) {
+  fmt::print(stderr, "volumark: unsupported: {}\n", reason);
+  if (reason.starts_with("effect ")) fmt::print(stderr, "volumark: to draw without it: --ignore-effects\n");
+  return kBadNews;
+}
+
+// What no setting and no backend could change: known before data are read.
+std::optional<std::string> missing_effect(const RenderOptions& options, const Scene& scene) {
+  if (options.ignore_effects) return std::nullopt;
+  if (options.method != "reference") return missing_effect_reason(find_method(options.method), scene.effects);
+  if (scene.effects.others.empty()) return std::nullopt;
+  return fmt::format("effect {}: the reference does not simulate it", scene.effects.others.front());
+}
+
+// The effects that are left out so that the picture can be drawn; the user is told.
+std::vector<std::string> ignored_effects(const Method& method, const Scene& scene, const Values& values,
+                                         const Device& device) {
+  std::vector<std::string> ignored = effects_to_ignore(method, scene, values, device.info());
+  if (!ignored.empty())
+    fmt::print(stderr, "volumark: warning: {} does not simulate {}: the picture lacks what the scene calls for\n",
+               method.info().name, fmt::join(ignored, ", "));
+  return ignored;
+}
+
+int render_with_method(const RenderOptions& options, const Scene& whole, int width, int height,
                        const Globals& globals) {
   const Method& method = find_method(options.method);
   Values values = default_values(method.info().parameters);
@@ -42,15 +68,15 @@ int render_with_method(const RenderOptions& options, const Scene& scene, int wid
     const auto [name, value] = split_assignment(text);
     set_value(method.info().parameters, values, name, value);
   }
-  const View& view = view_of(scene, options.view);
+  const View& view = view_of(whole, options.view);
   Device device = open_backend(options.backend, globals);
-  if (const auto reason = unsupported_reason(method, scene, values, device.info())) {
-    fmt::print(stderr, "volumark: unsupported: {}\n", *reason);
-    return kBadNews;
-  }
+  std::vector<std::string> ignored;
+  if (options.ignore_effects) ignored = ignored_effects(method, whole, values, device);
+  const Scene scene = without_effects(whole, ignored);
+  if (const auto reason = unsupported_reason(method, scene, values, device.info())) return refuse(*reason);
   FrameSource source(scene, method, values, device, width, height);
   const FrameCost first = source.frame(view);
-  write_image(options.out, source.read_back(), scene.background);
+  write_image(options.out, source.read_back(), scene.background, ignored_note(ignored));
   fmt::print(
       "{}: {}x{}, {} on {} ({}): prepare {}, first frame {}, peak {:.1f} MiB on the device ({:.1f} MiB of voxels)\n",
       options.out, width, height, method.info().name, options.backend, device.info().renderer,
@@ -69,6 +95,7 @@ int render(const RenderOptions& options, const Globals& globals) {
                                    did_you_mean(options.method, names), fmt::join(names, ", ")));
   }
   Scene scene = load_scene(options.scene);
+  if (const auto reason = missing_effect(options, scene)) return refuse(*reason);
   load_data(scene, globals.data_options());
   int width = scene.width, height = scene.height;
   if (!options.size.empty()) std::tie(width, height) = parse_size(options.size);
@@ -86,6 +113,8 @@ void add_render(CLI::App& app, const Globals& globals, Action& action) {
   command->add_option("--method,-m", options->method, "a method's name, or reference")->required();
   command->add_option("--backend,-b", options->backend, "gl, vulkan or cpu")->capture_default_str();
   command->add_option("--set", options->set, "a parameter: name=value (volumark list methods)")->take_all();
+  command->add_flag("--ignore-effects", options->ignore_effects,
+                    "draw without the effects that the method cannot simulate; the file says so");
   command->add_option("--view", options->view, "index of the view")->capture_default_str();
   command->add_option("--size", options->size, "WIDTHxHEIGHT instead of the scene's own");
   command->add_option("--out,-o", options->out, "image.exr, .png or .pfm")->required();
