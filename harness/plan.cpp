@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -87,7 +88,23 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
-std::string command_of(const Experiment& experiment, const CellKey& key, const std::vector<Sweep>& sweeps) {
+// Parameters in which the cells of one method differ.
+std::set<std::string> telling_apart(const Experiment& experiment, const std::string& method) {
+  std::map<std::string, std::set<std::string>> seen;
+  for (const ExperimentMethod& entry : experiment.methods) {
+    if (entry.method->info().name != method) continue;
+    for (const auto& [name, value] : entry.values)
+      if (entry.quality_axis != name || entry.sweep.empty()) seen[name].insert(to_string(value));
+    for (const double value : entry.sweep) seen[entry.quality_axis].insert(fmt::format("{}", value));
+  }
+  std::set<std::string> out;
+  for (const auto& [name, values] : seen)
+    if (values.size() > 1) out.insert(name);
+  return out;
+}
+
+std::string command_of(const Experiment& experiment, const CellKey& key, const std::set<std::string>& telling,
+                       const std::vector<Sweep>& sweeps) {
   const bool shipped = std::filesystem::path(experiment.path).parent_path() == experiment_directory();
   std::string out =
       fmt::format("volumark run {} --scene {} --method {} --backend {}",
@@ -98,18 +115,8 @@ std::string command_of(const Experiment& experiment, const CellKey& key, const s
   for (const auto& [name, value] : key.params)
     if (is_swept(name)) out += " --sweep " + quoted(name + "=" + to_string(value));
   // Beyond that, only what tells this cell from the others of its method.
-  for (const auto& [name, value] : key.params) {
-    if (is_swept(name)) continue;
-    std::set<std::string> seen;
-    for (const ExperimentMethod& method : experiment.methods) {
-      if (method.method->info().name != key.method) continue;
-      if (method.quality_axis == name && !method.sweep.empty())
-        for (const double v : method.sweep) seen.insert(fmt::format("{}", v));
-      else
-        seen.insert(to_string(method.values.at(name)));
-    }
-    if (seen.size() > 1) out += " --only " + quoted(name + "=" + to_string(value));
-  }
+  for (const auto& [name, value] : key.params)
+    if (telling.contains(name) && !is_swept(name)) out += " --only " + quoted(name + "=" + to_string(value));
   if (experiment.effects) out += " --variant " + quoted(variant_word(key.variant));
   // A folder of its own: the results that name this command stay.
   return out + " --overwrite --out out/again";
@@ -158,8 +165,7 @@ void check_variants(const std::vector<Experiment>& experiments, const CellFilter
 }
 
 Group make_group(const Experiment& experiment, const std::string& scene, const ExperimentMethod& method,
-                 const Values& values, const CellFilter& filter, const std::vector<std::string>& variants,
-                 const std::vector<Sweep>& sweeps) {
+                 const Values& values, const CellFilter& filter, const std::vector<std::string>& variants) {
   Group group;
   group.experiment = &experiment;
   group.scene = scene;
@@ -173,11 +179,20 @@ Group make_group(const Experiment& experiment, const std::string& scene, const E
       Cell cell;
       cell.backend = backend;
       cell.key = {experiment.name, scene_name(scene), method.method->info().name, backend, values, variant};
-      cell.command = command_of(experiment, cell.key, sweeps);
       group.cells.push_back(std::move(cell));
     }
   }
   return group;
+}
+
+void set_commands(std::vector<Group>& groups, const std::vector<Sweep>& sweeps) {
+  std::map<std::pair<const Experiment*, std::string>, std::set<std::string>> telling;
+  for (Group& group : groups) {
+    const std::string& method = group.method->info().name;
+    const auto [found, added] = telling.try_emplace({group.experiment, method});
+    if (added) found->second = telling_apart(*group.experiment, method);
+    for (Cell& cell : group.cells) cell.command = command_of(*group.experiment, cell.key, found->second, sweeps);
+  }
 }
 
 // One key, one series: the same cell twice would be two results with one name.
@@ -211,7 +226,7 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
           if (!std::isnan(quality))
             set_value(method.method->info().parameters, values, method.quality_axis, nlohmann::json(quality));
           if (!passes(filter, values)) continue;
-          Group group = make_group(experiment, scene, method, values, filter, variants, sweeps);
+          Group group = make_group(experiment, scene, method, values, filter, variants);
           cells += group.cells.size();
           if (cells > kMostCells)
             throw SceneError(
@@ -223,6 +238,7 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
         }
       }
     }
+  set_commands(groups, sweeps);
   check_unique(groups);
   return groups;
 }
