@@ -160,8 +160,8 @@ TEST_F(RunnerTest, ACellThatKilledTheProcessTwiceIsNotTriedAgain) {
   resume_ = true;
   const RunOutcome outcome = run(experiment());
   ASSERT_EQ(outcome.results.results.size(), 3U);
-  EXPECT_EQ(outcome.results.results[2].outcome, Outcome::Failed);
-  EXPECT_NE(outcome.results.results[2].reason.find("died"), std::string::npos);
+  EXPECT_EQ(outcome.results.results[1].outcome, Outcome::Failed);
+  EXPECT_NE(outcome.results.results[1].reason.find("died"), std::string::npos);
 }
 
 TEST_F(RunnerTest, ResultsOfAnotherCommitAreNotMixed) {
