@@ -18,7 +18,7 @@ const Integer& slices() {
                                   "percent",
                                   "slices to draw for each 100 stored ones; those between are interpolated",
                                   100,
-                                  25,
+                                  1,
                                   12800,
                                   {100, 200, 400, 800},
                                   Ideal<int64_t>{800, "step"}}};
