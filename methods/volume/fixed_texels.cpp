@@ -1,6 +1,7 @@
 // The 8-bit data of the effect fixed_point: palette, texels of the transfer window, stored normals.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -9,7 +10,8 @@
 namespace volumark {
 namespace {
 
-uint8_t level_of(double unit) { return static_cast<uint8_t>(std::lround(std::clamp(unit, 0., 1.) * 255)); }
+// NaN becomes 0.
+uint8_t level_of(double unit) { return unit > 0 ? static_cast<uint8_t>(std::min(unit, 1.) * 255 + 0.5) : uint8_t{0}; }
 
 // As the programs multiply levels (fixed_point.glsl).
 uint8_t product(int a, int b) {
@@ -20,14 +22,30 @@ uint8_t product(int a, int b) {
 // Data values in widths of the transfer window.
 std::vector<float> window_values(const Scene& scene) {
   const Volume& volume = *scene.volume;
-  const double lo = scene.transfer.lo, width = scene.transfer.hi - lo;
-  std::vector<float> values;
-  values.reserve(static_cast<size_t>(volume.size.x) * static_cast<size_t>(volume.size.y) *
-                 static_cast<size_t>(volume.size.z));
-  for (int k = 0; k < volume.size.z; ++k) {
-    for (int j = 0; j < volume.size.y; ++j) {
-      for (int i = 0; i < volume.size.x; ++i) values.push_back(static_cast<float>((volume.at(i, j, k) - lo) / width));
+  const size_t count =
+      static_cast<size_t>(volume.size.x) * static_cast<size_t>(volume.size.y) * static_cast<size_t>(volume.size.z);
+  const double width = scene.transfer.hi - scene.transfer.lo;
+  const double slope = volume.slope / width, intercept = (volume.intercept - scene.transfer.lo) / width;
+  std::vector<float> values(count);
+  const auto convert = [&](auto stored) {
+    for (size_t i = 0; i < count; ++i) {
+      std::memcpy(&stored, volume.voxels.data() + i * sizeof(stored), sizeof(stored));
+      values[i] = static_cast<float>(static_cast<double>(stored) * slope + intercept);
     }
+  };
+  switch (volume.type) {
+    case VoxelType::U8:
+      convert(uint8_t{});
+      break;
+    case VoxelType::U16:
+      convert(uint16_t{});
+      break;
+    case VoxelType::I16:
+      convert(int16_t{});
+      break;
+    case VoxelType::F32:
+      convert(float{});
+      break;
   }
   return values;
 }
@@ -43,19 +61,19 @@ class Normals {
                (scene.transfer.hi - scene.transfer.lo)) {}
 
   glm::dvec3 at(int i, int j, int k) const {
-    const glm::dvec3 difference(value(i + 1, j, k) - value(i - 1, j, k), value(i, j + 1, k) - value(i, j - 1, k),
-                                value(i, j, k + 1) - value(i, j, k - 1));
-    const glm::dvec3 gradient = difference * per_world_;
-    return -gradient / std::max(glm::length(gradient), floor_);
+    const size_t row = static_cast<size_t>(size_.x), slice = row * static_cast<size_t>(size_.y);
+    const auto here = static_cast<size_t>(k) * slice + static_cast<size_t>(j) * row + static_cast<size_t>(i);
+    const glm::dvec3 gradient =
+        per_world_ * glm::dvec3(difference(here, 1, i, size_.x), difference(here, row, j, size_.y),
+                                difference(here, slice, k, size_.z));
+    return gradient * (-1 / std::max(glm::length(gradient), floor_));
   }
 
  private:
-  double value(int i, int j, int k) const {
-    const glm::ivec3 p = glm::clamp(glm::ivec3(i, j, k), glm::ivec3(0), size_ - 1);
-    return static_cast<double>(
-        values_[(static_cast<size_t>(p.z) * static_cast<size_t>(size_.y) + static_cast<size_t>(p.y)) *
-                    static_cast<size_t>(size_.x) +
-                static_cast<size_t>(p.x)]);
+  // From the sample before to the one after, each clamped to the lattice.
+  double difference(size_t here, size_t stride, int index, int size) const {
+    const float after = values_[index + 1 < size ? here + stride : here];
+    return static_cast<double>(after - values_[index > 0 ? here - stride : here]);
   }
 
   const std::vector<float>& values_;
@@ -98,13 +116,16 @@ std::vector<uint8_t> fixed_texels(const Scene& scene, const FixedSettings& setti
   }
   const Normals normals(scene, values);
   const glm::ivec3 size = scene.volume->size;
-  texels.reserve(values.size() * 4);
+  texels.resize(values.size() * 4);
+  size_t texel = 0;
   for (int k = 0; k < size.z; ++k) {
     for (int j = 0; j < size.y; ++j) {
-      for (int i = 0; i < size.x; ++i) {
+      for (int i = 0; i < size.x; ++i, ++texel) {
         const glm::dvec3 normal = normals.at(i, j, k);
-        for (int axis = 0; axis < 3; ++axis) texels.push_back(level_of(0.5 * normal[axis] + 0.5));
-        texels.push_back(level_of(static_cast<double>(values[texels.size() / 4])));
+        for (int axis = 0; axis < 3; ++axis) {
+          texels[4 * texel + static_cast<size_t>(axis)] = level_of(0.5 * normal[axis] + 0.5);
+        }
+        texels[4 * texel + 3] = level_of(static_cast<double>(values[texel]));
       }
     }
   }

@@ -225,6 +225,35 @@ TEST(FixedPointWalk, PositionsAreOnTheRay) {
   }
 }
 
+// The data on which the walk relies, against their definitions in floating point: half a level.
+TEST(FixedPointWalk, PaletteAndTexelsAreTheSceneInLevels) {
+  const double half = 0.5 / 255 + 1e-6;
+  const Scene scene = smooth(kOneSided);
+  const Volume& volume = *scene.volume;
+  const FixedSettings settings{Classification::Post, false, 0.03};
+  const std::vector<uint8_t> palette = fixed_palette(scene, settings), texels = fixed_texels(scene, settings);
+  for (int level = 0; level < 256; ++level) {
+    const glm::dvec4 point = scene.transfer.at(level / 255.);
+    for (int c = 0; c < 4; ++c) {
+      const double expected = c < 3 ? point[c] : -std::expm1(-point.a * settings.step);
+      EXPECT_NEAR(palette[static_cast<size_t>(4 * level + c)] / 255., expected, half) << level;
+    }
+  }
+  const double floor = gradient_floor(*scene.effects.lighting, scene.transfer, volume);
+  for (const glm::ivec3 p : {glm::ivec3(0, 7, 39), {20, 20, 20}, {39, 0, 3}, {13, 30, 22}}) {
+    const auto at = static_cast<size_t>(4 * ((p.z * volume.size.y + p.y) * volume.size.x + p.x));
+    EXPECT_NEAR(texels[at + 3] / 255., volume.at(p.x, p.y, p.z), half);
+    const glm::dvec3 gradient = glm::dvec3(volume.at(p.x + 1, p.y, p.z) - volume.at(p.x - 1, p.y, p.z),
+                                           volume.at(p.x, p.y + 1, p.z) - volume.at(p.x, p.y - 1, p.z),
+                                           volume.at(p.x, p.y, p.z + 1) - volume.at(p.x, p.y, p.z - 1)) /
+                                (2. * volume.spacing);
+    const glm::dvec3 normal = -gradient / std::max(glm::length(gradient), floor);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(2 * texels[at + static_cast<size_t>(axis)] / 255. - 1, normal[axis], 2 * half);
+    }
+  }
+}
+
 // Slab of optical depth 1: what the integers give, whatever draws them.
 TEST(FixedPointWalk, SlabIsItsRecursion) {
   Device device = make_device(backend_id(), device_options());
