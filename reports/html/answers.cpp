@@ -101,10 +101,11 @@ std::string accuracy_head() {
 
 std::string accuracy_answer(const Model& model) {
   std::string rows;
-  bool swept = false;
+  bool swept = false, lettered = false;
   for (const Block* block : model.accuracy_blocks()) {
     rows += accuracy_rows(model, *block);
     swept = swept || block->swept;
+    lettered = lettered || block->settings.size() > 1;
   }
   std::string out =
       "<div class=\"answer\" id=\"answer-accuracy\"><h2>What does accuracy cost? <a href=\"#scenes\">Details</a></h2>";
@@ -113,7 +114,11 @@ std::string accuracy_answer(const Model& model) {
   return out +
          "<p class=\"hint\">Least milliseconds a frame to reach an error (worst view), over the backends: the one "
          "named. "
-         "&le; the coarsest setting reaches it. <b>Bold</b>: the fastest method.</p>"
+         "&le; the coarsest setting reaches it. <b>Bold</b>: the fastest method." +
+         std::string(lettered ? " Letters: "
+                                "settings, see the details."
+                              : "") +
+         "</p>"
          "<span class=\"picks\" role=\"radiogroup\" aria-label=\"Metric\">"
          "<input type=\"radio\" name=\"metric\" id=\"metric-rmse\" checked><label for=\"metric-rmse\">RMSE</label>"
          "<input type=\"radio\" name=\"metric\" id=\"metric-flip\"><label for=\"metric-flip\">FLIP p99</label></span>"

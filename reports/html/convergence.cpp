@@ -37,7 +37,7 @@ std::vector<std::pair<double, double>> points_of(const Convergence& series) {
 }
 
 // The slope that is expected, from the coarsest point on, as long as it stays within the frame.
-std::string expected_slope(const PlotAxes& axes, const Convergence& series) {
+std::string expected_slope(const PlotAxes& axes, PlotLabels& labels, const Convergence& series) {
   const auto points = points_of(series);
   if (!(series.expected > 0) || points.size() < 2) return "";
   const auto [v0, e0] = points.front();
@@ -47,7 +47,7 @@ std::string expected_slope(const PlotAxes& axes, const Convergence& series) {
   if (!(end < v0)) return "";
   const double error = e0 * std::pow(end / v0, series.expected);
   return plot_line(axes, {{v0, e0}, {end, error}}, "slope") +
-         plot_label(axes, std::sqrt(v0 * end), std::sqrt(e0 * error), "order " + compact(series.expected), "letter");
+         labels.put(std::sqrt(v0 * end), std::sqrt(e0 * error), "order " + compact(series.expected));
 }
 
 std::string cell_data(const Model& model, const Row* row, double value) {
@@ -59,14 +59,14 @@ std::string cell_data(const Model& model, const Row* row, double value) {
   return "";
 }
 
-std::string drawn_series(const Model& model, const Block& block, const PlotAxes& axes, const Convergence& series) {
+std::string drawn_series(const Model& model, const Block& block, const PlotAxes& axes, PlotLabels& labels,
+                         const Convergence& series) {
   const Row* found = model.row_of(block, series.key);
   const Row row = found != nullptr ? *found : Row{series.key.method, series.key.backend, "", true, 0, 0, 0, {}};
   const auto points = points_of(series);
   std::string out = plot_line(axes, points, "front " + series_classes(row));
   const std::string letter = found != nullptr ? block.letter(row) : "";
-  if (!letter.empty() && !points.empty())
-    out += plot_label(axes, points.back().first, points.back().second, letter, "letter");
+  if (!letter.empty() && !points.empty()) out += labels.put(points.back().first, points.back().second, letter);
   for (const auto& [value, error] : points) {
     PlotPoint point;
     point.x = value;
@@ -99,16 +99,17 @@ std::string convergence_plot(const Model& model, const Block& block, const std::
       "against {}, {}\">",
       kPlotWidth, kPlotHeight, escape(parameter), escape(model.title(block)));
   out += plot_frame(axes);
+  PlotLabels labels(axes);
   std::vector<std::pair<std::string, double>> slopes;  // one line for each order that a method states
   for (const Convergence* series : all) {
     if (series->parameter != parameter) continue;
     const std::pair<std::string, double> slope{series->key.method, series->expected};
     if (std::find(slopes.begin(), slopes.end(), slope) != slopes.end()) continue;
     slopes.push_back(slope);
-    out += expected_slope(axes, *series);
+    out += expected_slope(axes, labels, *series);
   }
   for (const Convergence* series : all)
-    if (series->parameter == parameter) out += drawn_series(model, block, axes, *series);
+    if (series->parameter == parameter) out += drawn_series(model, block, axes, labels, *series);
   return out + "</svg><figcaption class=\"sr\">RMSE against " + escape(parameter) + "</figcaption></figure>";
 }
 
@@ -134,9 +135,10 @@ std::string table_row(const Model& model, const Block& block, const Convergence&
                                      "<td class=\"num\">{}</td>",
                                      row.fitted, row.fitted_lo, row.fitted_hi, row.fitted_points)
                                : "<td class=\"num\">n/a</td><td class=\"num\">0</td>";
-  return out + fmt::format("<td class=\"num\">{}</td><td class=\"floor\">{}</td><td>{}</td><td>{}</td></tr>",
-                           row.expected > 0 ? compact(row.expected) : "n/a", floor_text(row),
-                           verdict_badge(row.verdict), escape(row.reason));
+  return out +
+         fmt::format("<td class=\"num\">{}</td><td class=\"floor\">{}</td><td>{}</td><td class=\"reason\">{}</td></tr>",
+                     row.expected > 0 ? compact(row.expected) : "n/a", floor_text(row), verdict_badge(row.verdict),
+                     escape(row.reason));
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "reports/html/format.h"
 #include "reports/html/marker.h"
 
@@ -65,12 +68,30 @@ std::string plot_line(const PlotAxes& axes, const std::vector<std::pair<double, 
   return fmt::format("<polyline class=\"{}\" points=\"{}\"/>", classes, path);
 }
 
-std::string plot_label(const PlotAxes& axes, double x, double y, const std::string& text, const std::string& classes) {
-  const double width = 7.0 * static_cast<double>(text.size()) + 9;
-  const bool left = axes.x.pixel(x) + width > kPlotWidth - kRight;
-  return fmt::format("<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" aria-hidden=\"true\">{}</text>",
-                     classes, axes.x.pixel(x) + (left ? -9 : 9), axes.y.pixel(y) - 6, left ? "end" : "start",
-                     escape(text));
+std::string PlotLabels::put(double x, double y, const std::string& text) {
+  constexpr double kHeight = 13;
+  const double width = 7.2 * static_cast<double>(text.size()) + 2;
+  const double px = axes_.x.pixel(x), py = axes_.y.pixel(y);
+  const std::pair<double, double> places[] = {{px + 9, py - 5},          {px + 9, py + 13},
+                                              {px - 9 - width, py - 5},  {px - 9 - width, py + 13},
+                                              {px - width / 2, py - 10}, {px - width / 2, py + 20}};
+  for (const auto& [left, base] : places) {
+    if (left < kLeft || left + width > kPlotWidth - kRight || base > kPlotHeight - kBottom || base < kTop + kHeight)
+      continue;
+    // One word for two lines that end together says the same as two.
+    const bool free = std::none_of(taken_.begin(), taken_.end(), [&](const Box& box) {
+      return left < box.x + box.width && box.x < left + width && std::abs(base - box.y) < kHeight;
+    });
+    const bool said = std::any_of(taken_.begin(), taken_.end(), [&](const Box& box) {
+      return box.text == text && std::abs(left - box.x) < 16 && std::abs(base - box.y) < kHeight;
+    });
+    if (said) return "";
+    if (!free) continue;
+    taken_.push_back({left, base, width, text});
+    return fmt::format("<text class=\"letter\" x=\"{:.1f}\" y=\"{:.1f}\" aria-hidden=\"true\">{}</text>", left, base,
+                       escape(text));
+  }
+  return "";
 }
 
 std::string plot_point(const PlotAxes& axes, const Row& row, const PlotPoint& point) {

@@ -26,8 +26,20 @@ std::string plot_frame(const PlotAxes& axes);
 
 std::string plot_line(const PlotAxes& axes, const std::vector<std::pair<double, double>>& values,
                       const std::string& classes);
-// A word at a place of the plot, to the right of it, or to the left where the frame ends.
-std::string plot_label(const PlotAxes& axes, double x, double y, const std::string& text, const std::string& classes);
+// Words at places of a plot: beside the place, where no earlier word of this plot is; left out where all is taken.
+class PlotLabels {
+ public:
+  explicit PlotLabels(const PlotAxes& axes) : axes_(axes) {}
+  std::string put(double x, double y, const std::string& text);
+
+ private:
+  struct Box {
+    double x, y, width;
+    std::string text;
+  };
+  const PlotAxes& axes_;
+  std::vector<Box> taken_;
+};
 
 struct PlotPoint {
   double x = 0, y = 0;

@@ -130,8 +130,10 @@ void Model::fill_rows(Block& block) {
 
 std::string Block::letter(const Row& row) const {
   if (settings.size() < 2 || row.setting.empty()) return "";
-  std::string out(1, static_cast<char>('a' + row.setting_index % 26));
-  if (row.setting_index >= 26) out += std::to_string(row.setting_index / 26);
+  const auto before = settings.begin() + static_cast<std::ptrdiff_t>(row.setting_index);
+  const auto index = std::count_if(settings.begin(), before, [](const std::string& name) { return !name.empty(); });
+  std::string out(1, static_cast<char>('a' + index % 26));
+  if (index >= 26) out += std::to_string(index / 26);
   return out;
 }
 

@@ -52,13 +52,14 @@ std::vector<std::pair<double, double>> places(const std::vector<CostPoint>& poin
 }
 
 // Backends that draw the same image differ in the last digits: steps below 1 % are not worth a line.
-std::string front_line(const Front& front, const PlotAxes& axes, const std::string& classes, const std::string& name) {
+std::string front_line(const Front& front, const PlotAxes& axes, const std::string& classes,
+                       PlotLabels* labels = nullptr, const std::string& name = "") {
   std::vector<std::pair<double, double>> places;
   for (const CostPoint& point : front.points)
     if (places.empty() || point.error < 0.99 * places.back().second) places.emplace_back(point.time, point.error);
   if (places.empty()) return "";
   return plot_line(axes, places, classes) +
-         (name.empty() ? "" : plot_label(axes, places.back().first, places.back().second, name, "letter"));
+         (labels == nullptr ? "" : labels->put(places.back().first, places.back().second, name));
 }
 
 // The front over all, and, hidden until they are asked for, those of each method over backends and of each backend over
@@ -68,15 +69,16 @@ std::string joint_fronts(const Model& model, const Block& block, const PlotAxes&
     return std::find(names.begin(), names.end(), name) - names.begin();
   };
   std::string overall, by_method, by_backend;
+  PlotLabels of_methods(axes), of_backends(axes);
   for (const Front& front : fronts(model.results, block.experiment, block.scene, metric)) {
     if (front.method.empty() && front.backend.empty())
-      overall += front_line(front, axes, "overall", "");
+      overall += front_line(front, axes, "overall");
     else if (front.backend.empty())
-      by_method +=
-          front_line(front, axes, fmt::format("front plain d{}", index(model.methods, front.method) % 4), front.method);
+      by_method += front_line(front, axes, fmt::format("front plain d{}", index(model.methods, front.method) % 4),
+                              &of_methods, front.method);
     else if (front.method.empty())
-      by_backend +=
-          front_line(front, axes, fmt::format("front c{}", index(model.backends, front.backend) % 6), front.backend);
+      by_backend += front_line(front, axes, fmt::format("front c{}", index(model.backends, front.backend) % 6),
+                               &of_backends, front.backend);
   }
   return overall + "<g class=\"fronts by-method\">" + by_method + "</g><g class=\"fronts by-backend\">" + by_backend +
          "</g>";
@@ -97,11 +99,11 @@ std::string point_text(const Model& model, const Series& series, const CostPoint
   return text + (dominated ? "; dominated" : "");
 }
 
-std::string series_line(const Block& block, const Series& series, const PlotAxes& axes) {
+std::string series_line(const Block& block, const Series& series, const PlotAxes& axes, PlotLabels& labels) {
   std::string out = plot_line(axes, places(series.points, series.front), "front " + series_classes(*series.row));
   const std::string letter = block.letter(*series.row);
   const CostPoint& last = series.points[series.front.back()];
-  if (!letter.empty()) out += plot_label(axes, last.time, last.error, letter, "letter");
+  if (!letter.empty()) out += labels.put(last.time, last.error, letter);
   return out;
 }
 
@@ -136,7 +138,8 @@ std::string cost_plot(const Model& model, const Block& block, const PlotMetric& 
       kPlotWidth, kPlotHeight, metric.title, escape(model.title(block)), metric.key);
   out += plot_frame(axes) + joint_fronts(model, block, axes, metric.key);
   out += "<g class=\"fronts each\">";
-  for (const Series& series : all) out += series_line(block, series, axes);
+  PlotLabels labels(axes);
+  for (const Series& series : all) out += series_line(block, series, axes, labels);
   out += "</g>";
   for (const Series& series : all) out += series_points(model, series, axes, metric);
   return out + "</svg>";

@@ -32,9 +32,10 @@ std::string table_row(const HardCaseRow& row) {
          escape(row.check) + "</th><td>" + escape(row.method.empty() ? "-" : row.method) + "</td><td>" +
          escape(row.backend.empty() ? "-" : row.backend) + "</td>" + figure(row.expected) + figure(row.measured) +
          figure(row.deviation) + figure(row.bound) +
-         (measured ? "<td class=\"share\">" + bound_bar(share_of_bound(row)) + " " + share_text(row) + "</td>"
+         (measured ? fmt::format("<td class=\"share\" data-value=\"{:.17g}\">", share_of_bound(row)) +
+                         bound_bar(share_of_bound(row)) + " " + number(share_of_bound(row)) + "</td>"
                    : std::string("<td class=\"none\">-</td>")) +
-         "<td>" + why + "</td><td>" +
+         "<td class=\"reason\">" + why + "</td><td>" +
          (row.command.empty() ? ""
                               : "<button type=\"button\" class=\"copy\" data-copy=\"" + escape(row.command) +
                                     "\" title=\"" + escape(row.command) + "\">copy</button>") +
@@ -89,7 +90,7 @@ std::string group_text(const Model& model, const PictureBook& book, const HardCa
                      {"measured", true},
                      {"deviation", true},
                      {"bound", true},
-                     {"share of the bound", false},
+                     {"deviation / bound", false},
                      {"reason; where expected value and bound come from", false},
                      {"again", false}},
                     rows, "wide sortable") +

@@ -28,11 +28,17 @@ struct Entry {
   std::string between;  // the two cells that the time was interpolated between
 };
 
+// "step 2 and 1": both cells are of one row, so they differ on the quality axis alone.
+std::string between_text(const Model& model, size_t coarse, size_t fine) {
+  const auto &a = model.results.results[coarse].quality, &b = model.results.results[fine].quality;
+  if (!a || !b || a->parameter != b->parameter) return model.settings[coarse] + " and " + model.settings[fine];
+  return a->parameter + " " + compact(a->value) + " and " + compact(b->value);
+}
+
 Entry entry_of(const Model& model, const Row& row, const Column& column) {
   const std::vector<CostPoint> points = model.points(row, column.metric);
   Entry out{time_to_error(points, column.target), ""};
-  if (out.answer.interpolated)
-    out.between = model.settings[out.answer.coarse] + " and " + model.settings[out.answer.fine];
+  if (out.answer.interpolated) out.between = between_text(model, out.answer.coarse, out.answer.fine);
   return out;
 }
 

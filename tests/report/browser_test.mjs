@@ -5,6 +5,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { pageChecks } from './page_checks.mjs';
+import { sectionChecks } from './section_checks.mjs';
 import { viewerChecks } from './viewer_checks.mjs';
 import { Browser } from './webdriver.mjs';
 
@@ -25,14 +26,14 @@ const main = async () => {
     const asked = (await browser.log('performance')).map(({ message }) => JSON.parse(message).message)
       .filter(({ method, params }) => method === 'Network.requestWillBeSent' && params.documentURL.startsWith('file:'))
       .map(({ params }) => params.request.url)
-      .filter((address) => !/^(data|blob):/.test(address) && !/^file:.*\/(report|bare)\.html$/.test(address));
+      .filter((address) => !/^(data|blob):/.test(address) && !/^file:.*\/(report|bare|old|verify)\.html$/.test(address));
     assert.deepEqual(asked, [], 'no request leaves the page');
   };
   const context = { browser, results, folder, open, shot, quiet };
 
   let failed = 0;
   try {
-    for (const [name, check] of [...pageChecks, ...viewerChecks]) {
+    for (const [name, check] of [...pageChecks, ...sectionChecks, ...viewerChecks]) {
       try {
         await check(context);
         console.log(`ok      ${name}`);
@@ -44,7 +45,7 @@ const main = async () => {
   } finally {
     await browser.stop();
   }
-  console.log(failed === 0 ? `all ${pageChecks.length + viewerChecks.length} checks passed` : `${failed} checks failed`);
+  console.log(failed === 0 ? `all ${pageChecks.length + sectionChecks.length + viewerChecks.length} checks passed` : `${failed} checks failed`);
   return failed === 0 ? 0 : 1;
 };
 

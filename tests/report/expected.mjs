@@ -12,10 +12,20 @@ export const number = (value) => {
 export const scientific = (value) => (value === 0 ? '0' : value.toExponential(2));
 export const ms = (seconds) => number(seconds * 1e3);
 
+// What a cell's row is called beside its method and backend: the parameters off the quality axis that vary in its scene.
+export const settingOf = (results, cell) => {
+  const same = results.results.filter(({ key }) => key.experiment === cell.key.experiment && key.scene === cell.key.scene && key.method === cell.key.method);
+  const names = Object.keys(cell.key.params).filter((name) => name !== cell.quality?.parameter && new Set(same.map(({ key }) => key.params[name])).size > 1);
+  return [...names.sort().map((name) => `${name} ${cell.key.params[name]}`),
+    ...(cell.ignored_effects.length > 0 ? [`ignores ${cell.ignored_effects.join(', ')}`] : [])].join(', ');
+};
+
 // Cells that count: [{time, error}].
-export const points = (results, { scene, method, backend }, metric) => results.results
-  .filter(({ key, outcome, metrics, error }) => key.scene === scene && key.method === method && key.backend === backend
-    && (outcome === 'ok' || outcome === 'wrong_image') && metrics && error)
+export const points = (results, { experiment, scene, method, backend, setting }, metric) => results.results
+  .filter((cell) => cell.key.experiment === experiment && cell.key.scene === scene && cell.key.method === method
+    && cell.key.backend === backend && cell.key.variant === '' && (setting === undefined || settingOf(results, cell) === setting)
+    && cell.ignored_effects.length === 0 && !cell.views.every(({ shows_nothing }) => shows_nothing)
+    && (cell.outcome === 'ok' || cell.outcome === 'wrong_image') && cell.metrics && cell.error)
   .map((cell) => {
     const bound = Math.max(0, ...cell.views.map((view) => view.reference?.bound ?? 0));
     const error = cell.error.worst[metric];

@@ -1,6 +1,6 @@
 // Checks of the page itself: what the tables and plots say, sorting, filter, themes, widths, printing.
 import { strict as assert } from 'node:assert';
-import { columns, ms, number, points, scientific, timeToError } from './expected.mjs';
+import { columns, ms, number, points, scientific, settingOf, timeToError } from './expected.mjs';
 
 const openReport = async ({ open, quiet, browser, shot }) => {
   await open('report.html');
@@ -14,7 +14,8 @@ const namesAreText = async ({ browser, results }) => {
     titles: [...document.querySelectorAll('section.scene h3')].map((h) => h.textContent),
     broken: document.querySelectorAll('.tte caption b, td img, h3 b').length,
     command: document.querySelector('#environment .command code').textContent }`);
-  assert.deepEqual(found.titles, results.scenes.map(({ title }) => title));
+  // Scenes of real data come first; a scene of several experiments says which.
+  assert.deepEqual(found.titles, [results.scenes[1].title, `${results.scenes[0].title} (quick)`]);
   assert.equal(found.broken, 0, 'no element came out of a name');
   assert.equal(found.command, results.run.argv.join(' '));
 };
@@ -27,13 +28,19 @@ const headerNames = async ({ browser, results }) => {
 
 const timeToErrorTable = async ({ browser, results }) => {
   const rows = await browser.run(`return [...document.querySelectorAll('table.tte')].flatMap((table) => [...table.tBodies[0].rows].map((row) => ({
-    scene: table.dataset.scene, method: row.dataset.method, backend: row.dataset.backend,
+    experiment: table.dataset.experiment, scene: table.dataset.scene, method: row.dataset.method, backend: row.dataset.backend,
+    setting: row.dataset.setting,
     software: row.textContent.includes('software'),
     // A field over several columns speaks for each of them.
-    texts: [...row.querySelectorAll('td')].flatMap((td) => Array(td.colSpan).fill(td.textContent.trim())),
+    texts: [...row.querySelectorAll('td')].flatMap((td) => Array(td.colSpan).fill([...td.childNodes].filter((n) => !n.classList?.contains('between')).map((n) => n.textContent).join('').trim())),
+    between: [...row.querySelectorAll('.between')].map((e) => e.textContent),
     bold: [...row.querySelectorAll('td')].map((td) => td.classList.contains('least')) })))`);
-  const series = new Set(results.results.map(({ key }) => JSON.stringify([key.scene, key.method, key.backend])));
-  assert.equal(rows.length, series.size, 'a row for each scene, method and backend');
+  const swept = results.results.filter(({ key }) => key.experiment === 'quick' && key.variant === '');
+  const series = new Set(swept.map((cell) => JSON.stringify([cell.key.scene, cell.key.method, cell.key.backend, settingOf(results, cell)])));
+  assert.equal(rows.length, series.size, 'a row for each scene, method, backend and setting');
+  assert.deepEqual(new Set(rows.map(({ setting }) => setting).filter(Boolean)), new Set(['target_format rgba32f', 'target_format rgba8',
+    'target_format rgba16f', 'ignores ground_fog']));
+  assert.ok(rows.some(({ between }) => between.includes('step 2 and 1')), 'between which two it was interpolated');
   let compared = 0;
   for (const row of rows) {
     const described = results.backends.find(({ id }) => id === row.backend);
@@ -83,9 +90,19 @@ const cellTable = async ({ browser, results }) => {
 const convergence = async ({ browser, results }) => {
   const rows = await browser.run('return [...document.querySelectorAll("table.convergence tbody tr")].map((r) => r.textContent)');
   assert.equal(rows.length, results.convergence.length);
-  results.convergence.forEach((row, i) => {
-    for (const text of [row.fitted.toFixed(2), row.verdict, row.reason]) assert.ok(rows[i].includes(text), `${text} in ${rows[i]}`);
+  const ordered = [...results.scenes].reverse().flatMap(({ name }) => results.convergence.filter(({ key }) => key.scene === name));
+  ordered.forEach((row, i) => {
+    for (const text of [row.fitted.toFixed(2), row.verdict, row.reason, row.floor_reason]) assert.ok(rows[i].includes(text), `${text} in ${rows[i]}`);
   });
+  assert.ok(ordered.some(({ floor_reason }) => floor_reason !== ''));
+  // On the log-log plot of a series, every point is where its value and error put it, and the slope is the order.
+  const plots = await browser.run(`return [...document.querySelectorAll('svg[data-plot=convergence]')].map((svg) => ({
+    points: [...svg.querySelectorAll('.point')].map((p) => p.getAttribute('aria-label')), slopes: svg.querySelectorAll('.slope').length }))`);
+  assert.equal(plots.length, 2);
+  for (const plot of plots) {
+    assert.equal(plot.points.length, 40);
+    assert.equal(plot.slopes, 2, 'the slope that each method states');
+  }
 };
 
 const parity = async ({ browser, results }) => {
@@ -100,7 +117,7 @@ const parity = async ({ browser, results }) => {
 
 // Every point lies where the logarithms of its time and error put it.
 const plotPositions = async ({ browser, results }) => {
-  const plots = await browser.run(`return [...document.querySelectorAll('svg.plot')].map((svg) => ({ metric: svg.dataset.metric,
+  const plots = await browser.run(`return [...document.querySelectorAll('svg.plot[data-metric]')].map((svg) => ({ metric: svg.dataset.metric,
     points: [...svg.querySelectorAll('.point')].map((p) => ({ time: Number(p.dataset.time), error: Number(p.dataset.error), cell: Number(p.dataset.cell),
       place: p.querySelector('g').getAttribute('transform').match(/[\\d.]+/g).map(Number) })) }))`);
   assert.equal(plots.length, 2 * results.scenes.length);

@@ -274,7 +274,7 @@ void Maker::series() {
         row.parameter = "step";
         for (const Result& result : results.results) {
           if (result.key.scene != row.key.scene || result.key.method != row.key.method ||
-              result.key.backend != row.key.backend || !result.error ||
+              result.key.backend != row.key.backend || !result.error || !result.ignored_effects.empty() ||
               result.key.params.at("target_format") != ParamValue(std::string("rgba32f")))
             continue;
           row.values.push_back(result.quality->value);
