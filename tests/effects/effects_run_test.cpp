@@ -7,6 +7,7 @@
 
 #include "harness/image_io.h"
 #include "harness/program_cost.h"
+#include "harness/run_folder.h"
 #include "harness/runner.h"
 #include "tests/unit/harness/test_folder.h"
 
@@ -88,7 +89,9 @@ TEST_F(EffectsRun, DrawsEveryPictureOnceAndSaysWhatEachEffectCosts) {
   for (const EffectRow& row : outcome.results.effects) {
     EXPECT_GT(row.rmse, 1e-3) << row.effect << " " << row.mode;
     EXPECT_GT(row.with.count, 0);
-    if (can_count_instructions()) EXPECT_GT(row.instructions_with, row.instructions_without) << row.effect << row.mode;
+    if (can_count_instructions()) {
+      EXPECT_GT(row.instructions_with, row.instructions_without) << row.effect << " " << row.mode;
+    }
   }
 }
 
@@ -158,7 +161,9 @@ TEST_F(EffectsRun, IgnoredEffectsAreRecordedAndMarkThePicture) {
   EXPECT_LT(result.error->worst.rmse, 0.1);
   EXPECT_THAT(result.views[0].rendered->path, HasSubstr("-ignored-ground_fog."));
   const std::string file = text_of_file(folder_.path() / "out" / result.views[0].rendered->path);
-  if (has_image_module()) EXPECT_THAT(file, HasSubstr("effects of the scene that are ignored here: ground_fog"));
+  if (has_image_module()) {
+    EXPECT_THAT(file, HasSubstr("effects of the scene that are ignored here: ground_fog"));
+  }
 }
 
 // Where the reference can simulate what the method ignores, the error shows what is missing.
@@ -179,16 +184,19 @@ TEST_F(EffectsRun, TheErrorShowsWhatIsMissing) {
   EXPECT_GT(ignoring, 3 * rmse());
 }
 
-TEST_F(EffectsRun, ResumingTakesCareOfTheFlag) {
+TEST_F(EffectsRun, ResumingWithAnotherFlagIsRefused) {
   fog();
   experiment_["effects"] = false;
   run();
   options_.resume = true;
   EXPECT_EQ(run().skipped, 1);
   options_.ignore_effects = true;
-  const RunOutcome outcome = run();
-  EXPECT_EQ(outcome.skipped, 0);
-  EXPECT_EQ(outcome.results.results.at(0).outcome, Outcome::Ok);
+  try {
+    run();
+    FAIL() << "went on";
+  } catch (const FolderError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("ignore_effects: off, now on"));
+  }
 }
 
 }  // namespace
