@@ -16,6 +16,8 @@ layout(location = 0) out vec4 colour;
 // page.
 
 float slice_position(float k) { return vm.own[3].x + k * vm.own[3].y; }
+// Of the part of its slab inside the box.
+float slab_thickness(float k) { return min(slice_position(k + .5), 1.) - max(slice_position(k - .5), 0.); }
 
 vec4 texel_of(float stored, vec2 at) {
   float place = stored - vm.own[2].w;
@@ -53,7 +55,7 @@ void main() {
 
   colour = vec4(0.);
   float face = (slice_position(first - .5 * toward) - origin.z) * inverse;
-  float begin = 0., end = 0.;
+  float len = 0.;
   vec2 box = vec2(0.);
   for (int i = 0; i < VM_TEXTURES; ++i) {
     float k = first + toward * float(i);
@@ -61,14 +63,16 @@ void main() {
       // The stretch of the ray in the slab, and where the ray meets the slice: their eq. 2, for each pixel instead of
       // each corner. Outside of the slice the stretch is empty ("zero outside").
       float next = (slice_position(k + .5 * toward) - origin.z) * inverse;
-      begin = max(z0, min(face, next));
-      end = min(z1, max(face, next));
+      float begin = max(z0, min(face, next)), end = min(z1, max(face, next));
       face = next;
       float meets = min(max((slice_position(k) - origin.z) * inverse, begin), end);
       box = origin.xy + meets * direction.xy;
+      len = max(end - begin, 0.) * unit;
+    } else {
+      len *= slab_thickness(k) / slab_thickness(k - toward);
     }
-    if (float(i) < count && begin < end) {
-      vec4 slice = shade_slice(k, box, (end - begin) * unit);
+    if (float(i) < count && len > 0.) {
+      vec4 slice = shade_slice(k, box, len);
       colour = slice + (1. - slice.a) * colour;  // their eq. 3 to 5
     }
   }

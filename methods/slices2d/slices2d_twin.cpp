@@ -40,6 +40,11 @@ struct SliceBindings : VolumeBindings {
   const CpuTexture& page;
   explicit SliceBindings(const CpuBindings& bindings) : VolumeBindings(bindings), page(bindings.textures[4]) {}
   HWY_INLINE Floats slice_position(Floats k) const { return hn::MulAdd(k, splat(vm.own[3][1]), splat(vm.own[3][0])); }
+  HWY_INLINE Floats slab_thickness(Floats k) const {
+    const Floats half = splat(.5F);
+    return hn::Sub(hn::Min(slice_position(hn::Add(k, half)), splat(1.F)),
+                   hn::Max(slice_position(hn::Sub(k, half)), splat(0.F)));
+  }
 };
 
 void vertex(const CpuBindings&, VertexBatch& batch) {
@@ -105,6 +110,16 @@ HWY_NOINLINE void meet(const SliceBindings& b, const Rays& rays, float number, s
     meets.y.put(i, hn::MulAdd(at, rays.direction_y.get(i), rays.origin_y.get(i)));
     const Floats length = hn::Mul(hn::Sub(end, begin), rays.unit.get(i));
     meets.length.put(i, hn::IfThenElseZero(hn::Lt(begin, end), length));
+  });
+}
+
+// The same slices on the next texture, drawn where the one before is: of their own thickness.
+HWY_NOINLINE void stay(const SliceBindings& b, const Rays& rays, float number, size_t size, Meets& meets) {
+  for_lanes(size, [&](size_t i) HWY_ATTR {
+    const Floats toward = rays.toward.get(i);
+    const Floats k = hn::MulAdd(toward, splat(number), rays.first.get(i));
+    const Floats ratio = hn::Div(b.slab_thickness(k), b.slab_thickness(hn::Sub(k, toward)));
+    meets.length.put(i, hn::Mul(meets.length.get(i), ratio));
   });
 }
 
@@ -223,7 +238,11 @@ void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
   for_lanes(batch.count, [&](size_t i) HWY_ATTR { store_rgba(batch, i, {zero, zero, zero, zero}); });
   for (int i = 0; i < textures; ++i) {
     const auto number = static_cast<float>(i);
-    if (corrected || i == 0) meet(b, rays, number, batch.count, meets);
+    if (corrected || i == 0) {
+      meet(b, rays, number, batch.count, meets);
+    } else {
+      stay(b, rays, number, batch.count, meets);
+    }
     add_slice_of<pre, linear_opacity, interpolate>(b, rays, meets, number, batch);
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "harness/metrics/metrics.h"
@@ -13,7 +14,17 @@
 namespace volumark {
 namespace {
 
-constexpr const char* kMethods[] = {"texture3d_slices", "raycast"};
+constexpr const char* kMethods[] = {"texture3d_slices", "raycast", "slices2d"};
+
+// What puts the samples of a method `step` voxels apart.
+struct Spacing {
+  const char* name;
+  std::string value;
+};
+Spacing spacing_of(const std::string& method, double step) {
+  if (method == "slices2d") return {"slices", fmt::format("{}", std::lround(100 / step))};
+  return {"step", fmt::format("{}", step)};
+}
 
 class VolumeMethods : public testing::TestWithParam<const char*> {
  protected:
@@ -42,12 +53,18 @@ const char* const kPerspective = R"({"orbit": {"count": 3, "azimuth": 30, "eleva
 const char* const kEyeInside = R"({"orbit": {"count": 3, "azimuth": 30, "elevation": 20, "distance": 0.3,
   "fov_y": 70, "units": "world", "target": [0.1, 0, 0.2]}})";
 
+bool simulates(const std::string& method, const char* effect) {
+  const std::vector<std::string>& effects = find_method(method).info().effects;
+  return std::find(effects.begin(), effects.end(), effect) != effects.end();
+}
+
 // Against the reference over all views, at a quarter of a voxel. The bounds are what order 2 leaves at that step on
 // these fields, measured once (1e-5 to 8e-5) and rounded up; a seam, a shift or a lost slab is far above them.
 void expect_close_to_reference(Device& device, const std::string& method, const Scene& scene, double rmse, double max) {
   for (const View& view : scene.views) {
     const Image reference = render_reference(scene, view, 96, 96).image;
-    const Image image = draw(device, scene, method, {{"step", "0.25"}}, view, 96, 96).image;
+    const Spacing quarter = spacing_of(method, 0.25);
+    const Image image = draw(device, scene, method, {{quarter.name, quarter.value.c_str()}}, view, 96, 96).image;
     const Difference d = difference(image, reference);
     EXPECT_LE(d.rmse, rmse) << view.name;
     EXPECT_LE(d.max, max) << view.name << " at " << d.x << ", " << d.y;
@@ -57,9 +74,11 @@ void expect_close_to_reference(Device& device, const std::string& method, const 
 TEST_P(VolumeMethods, SlabHasItsClosedFormForAnyStep) {
   const Scene scene = shipped_scene("slab");
   const double expected = -std::expm1(-1.0);
-  for (const char* step : {"16", "5", "1", "0.3", "0.125"}) {
-    const Image image = draw(device, scene, method, {{"step", step}}, scene.views[0], 32, 32).image;
-    const double slices = 16 / std::stod(step);
+  for (const double step : {16., 5., 1., 0.3, 0.125}) {
+    const Spacing spacing = spacing_of(method, step);
+    const Image image =
+        draw(device, scene, method, {{spacing.name, spacing.value.c_str()}}, scene.views[0], 32, 32).image;
+    const double slices = 16 / step;
     for (size_t c = 0; c < 4; ++c) {
       // One rounding of 2^-24 a blend, and one for the opacity of the slab.
       EXPECT_NEAR(static_cast<double>(image.pixel(16, 16)[c]), expected, (slices + 4) * 1.2e-7) << "step " << step;
@@ -82,6 +101,7 @@ TEST_P(VolumeMethods, AgreesWithTheReferenceUnderClipPlanes) {
   expect_close_to_reference(device, method, scene, 2e-4, 2e-3);
 }
 TEST_P(VolumeMethods, AgreesWithTheReferenceUnderLights) {
+  if (!simulates(method, "lighting")) return;  // then the cell is refused, as for any effect
   const Scene scene = scene_from_text(smooth_scene(kPerspective, R"(, "effects": {"lighting": {
       "ambient": 0.2, "diffuse": 0.7, "specular": 0.3, "shininess": 12, "two_sided": false,
       "lights": [{"directional": [0.5, 1, 0.3], "colour": [1, 0.9, 0.8]},
@@ -94,16 +114,20 @@ double fitted_order(Device& device, const std::string& method, const Scene& scen
                     const char* value) {
   const View& view = scene.views[0];
   const Image reference = render_reference(scene, view, 64, 64).image;
-  const auto error = [&](const char* step) {
-    return difference(draw(device, scene, method, {{"step", step}, {name, value}}, view, 64, 64).image, reference).rmse;
+  const auto error = [&](double step) {
+    const Spacing spacing = spacing_of(method, step);
+    const Settings settings = {{spacing.name, spacing.value.c_str()}, {name, value}};
+    return difference(draw(device, scene, method, settings, view, 64, 64).image, reference).rmse;
   };
-  return std::log(error("4") / error("1")) / std::log(4.0);
+  return std::log(error(4) / error(1)) / std::log(4.0);
 }
 
 TEST_P(VolumeMethods, ConvergeWithOrderTwo) {
   const Scene scene = scene_from_text(smooth_scene(kPerspective));
   EXPECT_NEAR(fitted_order(device, method, scene, "classification", "post"), 2, 0.3);
-  EXPECT_NEAR(fitted_order(device, method, scene, "classification", "preintegrated"), 2, 0.3);
+  if (method != "slices2d") {
+    EXPECT_NEAR(fitted_order(device, method, scene, "classification", "preintegrated"), 2, 0.3);
+  }
 }
 
 TEST_P(VolumeMethods, LoseAnOrderWithoutWhatMakesItTwo) {
@@ -124,8 +148,10 @@ TEST_P(VolumeMethods, BackToFrontAndFrontToBackAgree) {
 
 TEST_P(VolumeMethods, TargetsOfFewerBitsAreWithinTheirRounding) {
   const Scene scene = scene_from_text(smooth_scene(kPerspective));
+  const Spacing spacing = spacing_of(method, 4);
   const auto picture = [&](const char* format) {
-    return draw(device, scene, method, {{"step", "4"}, {"target_format", format}}, scene.views[0], 64, 64).image;
+    const Settings settings = {{spacing.name, spacing.value.c_str()}, {"target_format", format}};
+    return draw(device, scene, method, settings, scene.views[0], 64, 64).image;
   };
   const Image full = picture("rgba32f");
   // A ray meets at most 21 slices of 4 voxels (the diagonal of 47 cells); each blend loses up to one step.
@@ -139,10 +165,12 @@ std::string other_backend() { return backend_id() == "cpu" ? "gl" : "cpu"; }
 TEST_P(VolumeMethods, BackendsAgreeOnEveryShippedScene) {
   Device other = make_device(other_backend());
   for (const char* name : {"engine", "brain", "ch2", "marschner_lobb", "cloud", "sphere", "slab"}) {
-    const Scene scene = shipped_scene(name);
+    Scene scene = shipped_scene(name);
+    if (!simulates(method, "lighting")) scene.effects.lighting.reset();
     const View& view = scene.views[1];
-    const Image here = draw(device, scene, method, {{"step", "1"}}, view, 128, 128).image;
-    const Image there = draw(other, scene, method, {{"step", "1"}}, view, 128, 128).image;
+    const Spacing spacing = spacing_of(method, 1);
+    const Image here = draw(device, scene, method, {{spacing.name, spacing.value.c_str()}}, view, 128, 128).image;
+    const Image there = draw(other, scene, method, {{spacing.name, spacing.value.c_str()}}, view, 128, 128).image;
     const Parity agreement = parity(here, there);
     EXPECT_TRUE(agreement.agree) << name << ": interior " << agreement.interior_max << " at " << agreement.interior_x
                                  << ", " << agreement.interior_y << "; silhouettes over the limit "
