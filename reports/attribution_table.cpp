@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "reports/series_name.h"
 #include "reports/tables.h"
 #include "reports/text_table.h"
 
@@ -57,16 +58,16 @@ std::string largest_parts(const Attribution& entry) {
 std::string summary_table(const Results& results) {
   std::vector<TextRow> rows = {{"scene", "method", "backend", "setting", "worth", "rmse", "all ideal"}};
   for (const Attribution& entry : results.attribution)
-    rows.push_back({entry.key.scene, entry.key.method, entry.key.backend, setting(results, entry.key),
-                    largest_parts(entry), number(entry.error), rest(entry)});
+    rows.push_back({entry.key.scene, entry.key.method + series_suffix(results, entry.key), entry.key.backend,
+                    setting(results, entry.key), largest_parts(entry), number(entry.error), rest(entry)});
   return text_table(rows, 5);
 }
 
 std::string detail_table(const Results& results) {
   std::vector<TextRow> rows = {{"scene", "method", "backend", "setting", "made ideal", "rmse", "worth", "a frame"}};
   for (const Attribution& entry : results.attribution) {
-    rows.push_back({entry.key.scene, entry.key.method, entry.key.backend, setting(results, entry.key), "nothing",
-                    number(entry.error), "", time(entry.seconds)});
+    rows.push_back({entry.key.scene, entry.key.method + series_suffix(results, entry.key), entry.key.backend,
+                    setting(results, entry.key), "nothing", number(entry.error), "", time(entry.seconds)});
     for (const AttributionPart& part : entry.parts)
       rows.push_back({"", "", "", "",
                       fmt::format("{} ({} {} -> {})", part.aspect, part.parameter, text(part.from), text(part.to)),
@@ -99,7 +100,8 @@ std::string floors(const Results& results) {
   std::vector<TextRow> rows = {{"scene", "method", "backend", "held by", "floor"}};
   for (const Convergence& row : results.convergence)
     if (row.floor > 0 && !row.floor_reason.empty())
-      rows.push_back({row.key.scene, row.key.method, row.key.backend, row.floor_reason, number(row.floor)});
+      rows.push_back({row.key.scene, row.key.method + series_suffix(results, row.key), row.key.backend,
+                      row.floor_reason, number(row.floor)});
   return rows.size() == 1 ? "" : "\nWhere the error stops falling\n\n" + text_table(rows, 4);
 }
 

@@ -11,29 +11,13 @@
 #include "reports/attribution_table.h"
 #include "reports/effects_table.h"
 #include "reports/pairs_table.h"
+#include "reports/series_name.h"
 #include "reports/text_table.h"
 
 namespace volumark {
 namespace {
 
 using Row = std::vector<std::string>;
-
-// What else the cells of one scene, method and backend differ in: parameters other than the quality axis, effects.
-std::string variant_of(const Results& results, const Result& result) {
-  std::string out;
-  for (const auto& [name, value] : result.key.params) {
-    if (result.quality && name == result.quality->parameter) continue;
-    const bool varies = std::any_of(results.results.begin(), results.results.end(), [&, n = name](const Result& other) {
-      const auto found = other.key.params.find(n);
-      return other.key.experiment == result.key.experiment && other.key.method == result.key.method &&
-             found != other.key.params.end() && found->second != result.key.params.at(n);
-    });
-    if (varies)
-      out += fmt::format(" {}={}", name, std::visit([](const auto& v) { return fmt::format("{}", v); }, value));
-  }
-  if (!result.key.variant.empty()) out += " (" + result.key.variant + ")";
-  return out;
-}
 
 struct SeriesName {
   std::string experiment, scene, method, backend;
@@ -68,8 +52,8 @@ std::string time_to_error_table(const Results& results, const SeriesTable& wante
     const Result& result = results.results[i];
     const auto point = cost_point(results, i, wanted.metric);
     if (!point) continue;
-    const SeriesName name{result.key.experiment, result.key.scene, result.key.method + variant_of(results, result),
-                          result.key.backend};
+    const SeriesName name{result.key.experiment, result.key.scene,
+                          result.key.method + series_suffix(results, result.key), result.key.backend};
     if (!series.contains(name)) order.push_back(name);
     series[name].push_back(*point);
   }
@@ -99,31 +83,27 @@ std::string time_to_error_tables(const Results& results) {
   const std::string flip = time_to_error_table(results, {"flip_p99", "flip", kFlipTargets});
   if (rmse.empty()) return {};
   return "Time a frame to reach an RMSE, worst view (in brackets the settings of the quality axis between which it "
-         "lies; "
-         "- not\n"
-         "reached, see best; < the coarsest setting that was tried, or one measured exactly; * software: never ranked "
-         "against\n"
-         "a GPU)\n\n" +
+         "lies;\n"
+         "- not reached, see best; < a setting that was measured and not undercut by a faster one; * software: never "
+         "ranked\n"
+         "against a GPU)\n\n" +
          rmse + "\nThe same for FLIP, 99th percentile\n\n" + flip;
 }
 
 std::string empty_view_lines(const Results& results) {
   const auto empty = std::count_if(results.results.begin(), results.results.end(), a_view_shows_nothing);
   return empty == 0 ? ""
-                    : fmt::format(
-                          "\n{} cells have views that show nothing but the background: those have no say in "
-                          "errors\n",
-                          empty);
+                    : fmt::format("\nViews that show nothing but the background have no say in errors; cells with such "
+                                  "views: {}\n",
+                                  empty);
 }
 
 std::string convergence_table(const Results& results) {
   std::vector<Row> rows = {{"scene", "method", "backend", "axis", "order", "95 %", "expected", "verdict"}};
   for (const Convergence& row : results.convergence) {
     if (row.verdict == "not stated" || !(row.expected > 0)) continue;
-    Result carrier;
-    carrier.key = row.key;
     const bool fitted = row.fitted_points > 0;
-    rows.push_back({row.key.scene, row.key.method + variant_of(results, carrier), row.key.backend, row.parameter,
+    rows.push_back({row.key.scene, row.key.method + series_suffix(results, row.key), row.key.backend, row.parameter,
                     fitted ? fmt::format("{:.2f}", row.fitted) : "-",
                     fitted ? fmt::format("{:.2f}..{:.2f}", row.fitted_lo, row.fitted_hi) : "-",
                     fmt::format("{:g}", row.expected), row.verdict});
