@@ -64,7 +64,7 @@ std::string share_text(const HardCaseRow& row) {
   if (!has_deviation(row)) return "no deviation measured";
   if (!std::isfinite(row.deviation)) return "no number";
   const double share = share_of_bound(row);
-  if (!std::isfinite(share)) return "off by " + scientific(row.deviation) + " where it must be exact";
+  if (!std::isfinite(share)) return "off by " + number(row.deviation) + " where it must be exact";
   return number(share) + " of its bound";
 }
 

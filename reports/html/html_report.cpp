@@ -89,7 +89,8 @@ std::string page_title(const Results& results) {
   std::string out;
   for (const ExperimentResultInfo& experiment : results.experiments)
     out += (out.empty() ? "" : ", ") + (experiment.title.empty() ? experiment.name : experiment.title);
-  return out.empty() ? "Results" : out;
+  if (out.empty()) return results.hard_cases.empty() ? "Results" : "Hard cases";
+  return out;
 }
 
 // Replaces each {{name}} of the template once; what is put in is not searched again.

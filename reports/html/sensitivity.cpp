@@ -26,22 +26,30 @@ std::string spike_list(const SensitivityRow& row) {
   return out + (more > 0 ? fmt::format("; and {} more", more) : "");
 }
 
-// The picture of the row's own cell and the view of its worst spike; null where the report has none of its size.
-const PictureEntry* picture_of(const Model& model, const PictureBook& book, const SensitivityRow& row) {
-  if (row.spikes.empty()) return nullptr;
+// The picture in which the row's worst spike lies: that of the hard case that found it, or of the row's own cell, which
+// then has the same size. -1: the report has none.
+int picture_of(const Model& model, const PictureBook& book, const SensitivityRow& row) {
+  const Spike& worst = row.spikes.front();
+  for (const auto& [index, pictures] : book.hard_cases) {
+    const HardCaseRow& found = model.results.hard_cases[index];
+    if (found.method == row.key.method && found.backend == row.key.backend && found.x == worst.x &&
+        found.y == worst.y && found.check.find(row.key.scene) != std::string::npos && pictures.first >= 0)
+      return pictures.first;
+  }
   for (const PictureEntry& entry : book.entries) {
     const Result& result = model.results.results[entry.cell];
     if (entry.rendered >= 0 && result.key.scene == row.key.scene && result.key.method == row.key.method &&
         result.key.backend == row.key.backend && result.key.variant == row.key.variant &&
-        result.key.params == row.key.params && result.views[entry.view].index == row.spikes.front().view)
-      return &entry;
+        result.key.params == row.key.params && result.views[entry.view].index == worst.view)
+      return entry.rendered;
   }
-  return nullptr;
+  return -1;
 }
 
 std::string marked_picture(const Model& model, const PictureBook& book, const SensitivityRow& row) {
-  const PictureEntry* entry = picture_of(model, book, row);
-  if (entry == nullptr) return "";
+  if (row.spikes.empty()) return "";
+  const int picture = picture_of(model, book, row);
+  if (picture < 0) return "";
   std::string marks;
   for (const Spike& spike : row.spikes)
     if (spike.view == row.spikes.front().view)
@@ -50,7 +58,7 @@ std::string marked_picture(const Model& model, const PictureBook& book, const Se
       "<figure class=\"spots\" data-picture=\"{}\" data-difference=\"-1\" data-x=\"{}\" data-y=\"{}\" "
       "data-marks=\"{}\">"
       "<figcaption>{} ({}, {}), view {}: spikes</figcaption></figure>",
-      entry->rendered, row.spikes.front().x, row.spikes.front().y, marks, escape(row.key.scene), escape(row.key.method),
+      picture, row.spikes.front().x, row.spikes.front().y, marks, escape(row.key.scene), escape(row.key.method),
       escape(row.key.backend), row.spikes.front().view);
 }
 
@@ -62,16 +70,19 @@ std::string sensitivity_part(const Model& model, const PictureBook& book) {
   for (const SensitivityRow& row : model.results.sensitivity) order.push_back(&row);
   std::stable_sort(order.begin(), order.end(),
                    [](const SensitivityRow* a, const SensitivityRow* b) { return !a->ok && b->ok; });
+  double largest = 0;
+  for (const SensitivityRow* row : order)
+    if (std::isfinite(row->max)) largest = std::max(largest, row->max);
   std::string rows, pictures;
   for (const SensitivityRow* row : order) {
-    const double share = row->limit > 0 ? row->max / row->limit : 0;
     auto figure = [](double value) {
       return fmt::format("<td class=\"num\" data-value=\"{:.17g}\">{}</td>", value, number(value));
     };
     rows += "<tr><td>" + verdict_badge(row->ok ? "ok" : "fail") + "</td><th scope=\"row\">" + escape(row->key.scene) +
             "</th><td>" + escape(row->key.method) + "</td><td>" + escape(row->key.backend) + "</td>" +
-            figure(row->median) + figure(row->p99) + figure(row->max) + figure(row->limit) + "<td class=\"share\">" +
-            bound_bar(share) + "</td>" +
+            figure(row->median) + figure(row->p99) + fmt::format("<td data-value=\"{:.17g}\">", row->max) +
+            bar(largest > 0 ? row->max / largest : 0, row->ok ? 0 : 1, number(row->max)) + "</td>" +
+            figure(row->limit) +
             fmt::format("<td class=\"num\" data-value=\"{}\">{}</td>", row->spike_count, row->spike_count) + "<td>" +
             spike_list(*row) + (row->reason.empty() ? "" : " <b>" + escape(row->reason) + "</b>") + "</td></tr>";
     pictures += marked_picture(model, book, *row);
@@ -80,7 +91,10 @@ std::string sensitivity_part(const Model& model, const PictureBook& book) {
   return fmt::format(
              "<h3 id=\"sensitivity\">Small motions of the camera</h3><p class=\"hint\">The camera moves by {} of the "
              "scene's size in {} directions. Change of the picture (largest channel) per motion, over the pixels that "
-             "change. A pixel beyond the limit is a spike: a crack, a pop or a branch that flips.</p>",
+             "change. A spike is a pixel that changes more "
+             "than its own limit, which follows from a larger motion and from what changes around it: a crack, a pop "
+             "or a "
+             "branch that flips. The limit shown is that of the pixel that comes nearest to its own.</p>",
              scientific(first.motion), first.directions) +
          table_text("Sensitivity",
                     {{"verdict", false},
@@ -89,12 +103,11 @@ std::string sensitivity_part(const Model& model, const PictureBook& book) {
                      {"backend", false},
                      {"median", true},
                      {"p99", true},
-                     {"largest", true},
-                     {"limit", true},
-                     {"share of the limit", false},
+                     {"largest", false},
+                     {"limit where nearest", true},
                      {"spikes", true},
                      {"the worst, and where", false}},
-                    rows, "wide sortable") +
+                    rows, "wide sortable sensitivity") +
          (pictures.empty() ? "" : "<div class=\"spot-row\">" + pictures + "</div>");
 }
 

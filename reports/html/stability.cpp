@@ -54,15 +54,34 @@ std::string spot(const Model& model, const PictureBook& book, const HardCaseRow&
       picture, difference, row.x, row.y, escape(place_of(row)), at);
 }
 
+bool is_bad(const HardCaseRow& row) { return row.outcome != "pass" && row.outcome != "not_applicable"; }
+
+std::string table(const std::string& name, const std::string& rows) {
+  return table_text(name,
+                    {{"outcome", false},
+                     {"check", false},
+                     {"method", false},
+                     {"backend", false},
+                     {"expected", true},
+                     {"measured", true},
+                     {"deviation", true},
+                     {"bound", true},
+                     {"deviation / bound", false},
+                     {"reason; where expected value and bound come from", false},
+                     {"again", false}},
+                    rows, "wide sortable");
+}
+
 std::string group_text(const Model& model, const PictureBook& book, const HardCaseGroup& group) {
   const HardCaseRow& worst = *group.rows.front();
   size_t passed = 0, bad = 0, not_applicable = 0;
-  std::string rows, spots;
+  std::string good_rows, bad_rows, spots;
   for (const HardCaseRow* row : group.rows) {
     ++(row->outcome == "pass" ? passed : row->outcome == "not_applicable" ? not_applicable : bad);
-    rows += table_row(*row);
+    (is_bad(*row) ? bad_rows : good_rows) += table_row(*row);
     spots += spot(model, book, *row);
   }
+  const size_t good = passed + not_applicable;
   std::string counts = fmt::format("{} of {} hold", passed, passed + bad);
   if (passed + bad == 0) counts = "not applicable";
   const std::string state = bad > 0 ? "bad" : passed > 0 ? "good" : "none";
@@ -79,22 +98,12 @@ std::string group_text(const Model& model, const PictureBook& book, const HardCa
                : "<span></span><span class=\"case-worst\">" + (worst.outcome == "error" ? "error: " : std::string()) +
                      escape(worst.reason) + "</span>";
   title += "<span class=\"case-counts\">" + counts + "</span></span>";
+  const std::string passes = table(worst.title, good_rows);
+  std::string inside = bad > 0 ? table(worst.title, bad_rows) : passes;
+  if (!spots.empty()) inside += "<div class=\"spot-row\">" + spots + "</div>";
+  if (bad > 0 && !good_rows.empty()) inside += folded(fmt::format("{} more, which do not fail", good), passes);
   return "<details class=\"fold case\" data-case=\"" + escape(group.id) + "\"" + (bad > 0 ? " open" : "") +
-         "><summary>" + title + "</summary>" +
-         table_text(worst.title,
-                    {{"outcome", false},
-                     {"check", false},
-                     {"method", false},
-                     {"backend", false},
-                     {"expected", true},
-                     {"measured", true},
-                     {"deviation", true},
-                     {"bound", true},
-                     {"deviation / bound", false},
-                     {"reason; where expected value and bound come from", false},
-                     {"again", false}},
-                    rows, "wide sortable") +
-         (spots.empty() ? "" : "<div class=\"spot-row\">" + spots + "</div>") + "</details>";
+         "><summary>" + title + "</summary>" + inside + "</details>";
 }
 
 }  // namespace
@@ -112,9 +121,8 @@ std::string stability_section(const Model& model, const PictureBook& book) {
         "the case; the line across it is the bound, and what goes beyond is hatched. A case opens on a click or "
         "Enter; those that fail are open.</p><div class=\"cases\">";
     std::vector<HardCaseGroup> groups = group_cases(results.hard_cases);
-    std::stable_partition(groups.begin(), groups.end(), [](const HardCaseGroup& group) {
-      return group.rows.front()->outcome == "fail" || group.rows.front()->outcome == "error";
-    });
+    std::stable_partition(groups.begin(), groups.end(),
+                          [](const HardCaseGroup& group) { return is_bad(*group.rows.front()); });
     for (const HardCaseGroup& group : groups) out += group_text(model, book, group);
     out += "</div><p class=\"hint\">All again: </p>" + command_box("volumark verify");
   }

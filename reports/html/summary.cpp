@@ -19,6 +19,7 @@ std::string tile(const std::string& state, const std::string& href, const std::s
 }
 
 std::string outcome_tile(const Results& results) {
+  if (results.results.empty()) return tile("none", "cells", "Outcomes", "no cell", "nothing was drawn and measured");
   std::map<Outcome, int> counts;
   for (const Result& result : results.results) ++counts[result.outcome];
   std::string detail;
@@ -34,6 +35,7 @@ std::string outcome_tile(const Results& results) {
 }
 
 std::string bound_tile(const Results& results) {
+  if (results.results.empty()) return "";
   double worst = -1;
   bool estimate = false;
   std::string where;
@@ -55,6 +57,7 @@ std::string bound_tile(const Results& results) {
 }
 
 std::string parity_tile(const Results& results) {
+  if (results.results.empty()) return "";
   if (results.parity.empty()) return tile("none", "checks", "Backends agree", "not compared", "");
   const auto ok = std::count_if(results.parity.begin(), results.parity.end(), [](const auto& row) { return row.ok; });
   const auto worst = std::max_element(results.parity.begin(), results.parity.end(),
@@ -68,6 +71,7 @@ std::string parity_tile(const Results& results) {
 std::string convergence_tile(const Results& results) {
   std::map<std::string, int> counts;
   for (const Convergence& row : results.convergence) ++counts[row.verdict];
+  if (results.results.empty()) return "";
   if (results.convergence.empty()) return tile("none", "scenes", "Convergence", "not measured", "");
   const int judged = counts["pass"] + counts["fail"];
   std::string detail;
