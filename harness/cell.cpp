@@ -130,7 +130,8 @@ CellRun::CellRun(const Group& group, const Cell& cell, const SceneContext& conte
   result_.height = context.height;
   result_.quality = group.quality;
   result_.command = cell.command;
-  if (group.method->info().expected_order != nullptr)
+  // In the arithmetic of fixed_point smaller steps mean more rounding, and no order of convergence holds.
+  if (group.method->info().expected_order != nullptr && !scene_.effects.fixed_point)
     result_.order.expected = group.method->info().expected_order(group.values);
 }
 
