@@ -112,5 +112,22 @@ TEST(Methods, ExpectedOrderOfSlices) {
   EXPECT_EQ(order({{"target_format", "rgba8"}}), 0);
 }
 
+TEST(Methods, RaycastStatesAnOrderOnlyWhereTheStepDecides) {
+  const MethodInfo& info = find_method("raycast").info();
+  const auto order = [&](std::initializer_list<std::pair<const char*, const char*>> changes) {
+    Values values = default_values(info.parameters);
+    set_value(info.parameters, values, "early_termination", std::string("0"));
+    for (const auto& [name, value] : changes) set_value(info.parameters, values, name, std::string(value));
+    return info.expected_order(values);
+  };
+  EXPECT_EQ(order({}), 2);
+  EXPECT_EQ(order({{"classification", "preintegrated"}}), 2);
+  EXPECT_EQ(order({{"volume_format", "r32f"}}), 2);
+  EXPECT_EQ(order({{"volume_format", "r8"}}), 0);
+  EXPECT_EQ(order({{"volume_format", "r16f"}}), 0);
+  EXPECT_EQ(order({{"target_format", "rgba16f"}}), 0);
+  EXPECT_EQ(order({{"early_termination", "0.001"}}), 0);
+}
+
 }  // namespace
 }  // namespace volumark
