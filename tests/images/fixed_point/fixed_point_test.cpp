@@ -7,6 +7,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "backends/cpu/highway_targets.h"
+// After the choice of instruction sets.
+#include <hwy/targets.h>
+
 #include "harness/frame.h"
 #include "methods/reference/reference.h"
 #include "tests/images/fixed_point/scalar_walk.h"
@@ -163,6 +167,27 @@ TEST(FixedPointBits, OfAnyNumberOfThreads) {
     const auto views = views_of(scene, true);
     EXPECT_EQ(difference(pictures(a, scene, method, {}, views)[0], pictures(b, scene, method, {}, views)[0]).max, 0);
   }
+}
+
+// Twins are compiled for several instruction sets, some of which have a fused multiply-add: no bit may depend on it.
+TEST(FixedPointBits, OfEveryInstructionSet) {
+  if (backend_id() != "cpu") return;
+  const Scene scene = smooth(std::string(kOneSided) + kClipped);
+  const auto views = views_of(scene, true);
+  std::vector<Image> first;
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    Device device = make_device("cpu", device_options());
+    EXPECT_EQ(device.info().renderer, std::string("CPU, ") + hwy::TargetName(target));
+    for (size_t m = 0; m < std::size(kMethods); ++m) {
+      const Image image = pictures(device, scene, kMethods[m], {}, views)[1];
+      if (first.size() == m) first.push_back(image);
+      EXPECT_EQ(difference(image, first[m]).max, 0) << kMethods[m] << ", " << hwy::TargetName(target);
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 // ---- The definition -------------------------------------------------------------------------------------------------
