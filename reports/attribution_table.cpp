@@ -22,7 +22,10 @@ std::string text(const ParamValue& value) {
 }
 
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2e}", value); }
-std::string share(double value) { return std::isnan(value) ? "-" : fmt::format("{:.1f} %", 100 * value); }
+std::string share(double value) {
+  if (std::isnan(value)) return "-";
+  return fmt::format("{:.1f} %", std::abs(value) < 5e-4 ? 0.0 : 100 * value);  // never -0.0
+}
 std::string time(double seconds) { return seconds > 0 ? seconds_text(seconds) : "-"; }
 
 const Result* cell_of(const Results& results, const CellKey& key) {
@@ -68,10 +71,17 @@ std::string detail_table(const Results& results) {
   for (const Attribution& entry : results.attribution) {
     rows.push_back({entry.key.scene, entry.key.method + series_suffix(results, entry.key), entry.key.backend,
                     setting(results, entry.key), "nothing", number(entry.error), "", time(entry.seconds)});
-    for (const AttributionPart& part : entry.parts)
+    std::string idle;
+    for (const AttributionPart& part : entry.parts) {
+      if (part.error == entry.error) {
+        idle += (idle.empty() ? "" : ", ") + part.aspect;
+        continue;
+      }
       rows.push_back({"", "", "", "",
                       fmt::format("{} ({} {} -> {})", part.aspect, part.parameter, text(part.from), text(part.to)),
                       number(part.error), share(part.worth), time(part.seconds)});
+    }
+    if (!idle.empty()) rows.push_back({"", "", "", "", "without effect: " + idle, "", "0 %", ""});
     if (entry.parts.size() > 1)
       rows.push_back({"", "", "", "", "all of them", rest(entry),
                       share(1 - entry.all_ideal * entry.all_ideal / (entry.error * entry.error)), ""});
