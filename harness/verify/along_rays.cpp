@@ -53,7 +53,7 @@ void segments_in_order(CaseRun& run) {
 
 void thin_medium(CaseRun& run) {
   // So little light that the opacity of a segment must be right to its own digits, not to those of 1.
-  const View view = orthographic({0, 0, -1}, 0.5);
+  const View view = orthographic({0, 0, -1}, 0.5, 60);
   for (const char* classification : {"post", "pre", "preintegrated"}) {
     if (!run.has("classification", classification)) continue;
     for (const auto& [depth, cells] : {std::pair(1e-2, 100), std::pair(1e-4, 10)}) {
@@ -77,7 +77,7 @@ void early_end(CaseRun& run) {
   for (const double threshold : {0.25, 1. / 4096})
     for (const double depth : {1., 12.}) {
       const Image image = run.draw(deep_box(16, depth), run.stepped(0.5, {{info->name, threshold}}),
-                                   orthographic({0, 0, -1}, 0.9), 1, 1);
+                                   orthographic({0, 0, -1}, 0.9, 60), 1, 1);
       const double left = std::exp(-depth), rounding = 40 * 0x1p-23;
       run.add({.check = fmt::format("optical depth {:g}, rays end below transmittance {:.3g}", depth, threshold),
                .expected = 1 - left,
