@@ -1,6 +1,6 @@
 // The folder of one run: results.json, a journal of what came since it was last written, images, and a lock that is
 // held while a process works in it. After a kill at any moment the folder can be read and gone on with; at most the
-// cell that was being measured is lost.
+// cells that were open (those of one group) are lost.
 #pragma once
 
 #include <chrono>
