@@ -6,7 +6,9 @@
 #include "harness/cli/commands.h"
 #include "harness/effect_variants.h"
 #include "harness/paths.h"
+#include "harness/run_folder.h"
 #include "harness/runner.h"
+#include "harness/verify/verify.h"
 #include "reports/tables.h"
 
 namespace volumark::cli {
@@ -16,13 +18,33 @@ struct RunArguments {
   RunOptions options;
   std::string out;
   std::vector<std::string> only, sweeps;
-  bool no_images = false, no_reference = false;
+  bool no_images = false, no_reference = false, verify = false;
 };
 
 std::atomic<bool> stop_asked{false};
 
 extern "C" void on_signal(int) {
   if (stop_asked.exchange(true)) std::_Exit(kInterrupted);  // asked twice: at once; the journal has what was finished
+}
+
+// The stability suite on the run's backends and methods; its rows go into the run's results.
+void add_verification(const RunOptions& options, RunOutcome& outcome) {
+  VerifyOptions wanted;
+  wanted.backends = options.filter.backends;
+  wanted.methods = options.filter.methods;
+  wanted.device = options.cell.device;
+  wanted.require_backends = options.cell.require_backends;
+  wanted.data = options.data;
+  wanted.stop = &stop_asked;
+  if (options.images) wanted.out = options.out;
+  RunFolder folder(options.out);
+  VerifyOutcome found = verify(wanted, [](const std::string& line) { fmt::print("{}\n", line); });
+  fmt::print("{}\n", verify_summary(found));
+  if (verify_failed(found)) outcome.bad_news.push_back("stability: " + verify_summary(found));
+  outcome.interrupted = outcome.interrupted || found.interrupted;
+  outcome.results.hard_cases = std::move(found.rows);
+  outcome.results.sensitivity = std::move(found.sensitivity);
+  folder.save(outcome.results, true);
 }
 
 int run(const RunArguments& arguments, const Globals& globals) {
@@ -43,7 +65,8 @@ int run(const RunArguments& arguments, const Globals& globals) {
   options.argv = globals.argv;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const RunOutcome outcome = run_experiments(options);
+  RunOutcome outcome = run_experiments(options);
+  if (arguments.verify && !outcome.interrupted) add_verification(options, outcome);
   if (outcome.skipped > 0) fmt::print("{} cells were measured before\n", outcome.skipped);
   fmt::print("\n{}\n", tables_text(outcome.results));
   for (const std::string& line : outcome.bad_news) fmt::print("{}\n", line);
@@ -84,6 +107,8 @@ void add_run(CLI::App& app, const Globals& globals, Action& action) {
                     "draw without the effects that a method cannot simulate; results and pictures say so");
   command->add_flag("--no-reference", arguments->no_reference,
                     "measure times alone, without references and errors: for scenes whose reference takes too long");
+  command->add_flag("--verify", arguments->verify,
+                    "then run the stability suite (volumark verify) into the same results");
   command->add_flag("--no-images", arguments->no_images, "keep no pictures");
   command->footer("Example: volumark run quick --backend cpu --out out/quick");
   command->callback(

@@ -76,10 +76,19 @@ Values CaseRun::values(const Settings& settings) const {
   return out;
 }
 
+bool CaseRun::steps_exactly() const {
+  for (const ParameterInfo& info : method().info().parameters)
+    if (info.quality_axis) return info.unit == "voxels";
+  return false;
+}
+
 Values CaseRun::stepped(double step, Settings settings) const {
   for (const ParameterInfo& info : method().info().parameters)
     if (info.quality_axis && info.unit == "voxels") {
       settings.emplace_back(info.name, step);
+      return values(settings);
+    } else if (info.quality_axis && info.unit == "percent") {
+      settings.emplace_back(info.name, std::round(100 / step));
       return values(settings);
     }
   throw NotApplicable(fmt::format("{} has no step in voxels", method().info().name));

@@ -65,7 +65,10 @@ class CaseRun {
   // The method's defaults with these set; parameters whose aspect is early termination are ideal, since the threshold
   // is a jump of its own. `step` is in voxels and sets the quality axis. Throws NotApplicable.
   Values values(const Settings& settings) const;
+  // A method whose axis counts slices in percent of the stored ones gets the nearest whole number of them.
   Values stepped(double step, Settings settings = {}) const;
+  // Whether the step is taken as given, and slabs begin where the volume does: n slices are n slabs.
+  bool steps_exactly() const;
   // For pictures of whole scenes: the step is one voxel, or what cuts the diagonal into about a hundred segments.
   Values scene_values(const Scene& scene) const;
   bool has(const std::string& parameter, const Value& value) const;

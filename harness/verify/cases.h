@@ -10,6 +10,7 @@ void slab(CaseRun& run);
 void sphere(CaseRun& run);
 void grazing_shell(CaseRun& run);
 void clip_planes(CaseRun& run);
+void eye_and_ties(CaseRun& run);
 // segments.cpp
 void preintegration_table(CaseRun& run);
 void linear_segment(CaseRun& run);
@@ -31,6 +32,11 @@ void extreme_transfer(CaseRun& run);
 // reference_cases.cpp
 void reference_on_levels(CaseRun& run);
 void reference_bound(CaseRun& run);
+// along_rays.cpp
+void segments_in_order(CaseRun& run);
+void thin_medium(CaseRun& run);
+void early_end(CaseRun& run);
+void lit_gradient(CaseRun& run);
 // agreement.cpp
 void agreement(CaseRun& run);
 

@@ -50,9 +50,9 @@ std::string refusal_of(const fs::path& folder, const std::vector<float>& values,
       .write(reinterpret_cast<const char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(float)));
   const std::string text = fmt::format(
       R"({{"volumark_scene": 1, "title": "edge of what is allowed",
-           "volume": {{"file": "data.raw", "raw": {{"size": [2, 2, 2], "type": "f32"}}{}}},
+           "volume": {{"file": "data.raw", "raw": {{"size": [2, 2, 2], "type": "f32", "endian": "little"}}{}}},
            "transfer": {{"points": [{{"value": 0, "colour": [1, 1, 1], "extinction": 1}}], "window": [0, 1]}},
-           "views": [{{"orbit": {{"count": 1, "distance": 3}}}}]}})",
+           "views": [{{"orbit": {{"count": 1, "distance": 3, "fov_y": 40}}}}]}})",
       more);
   try {
     Scene scene = parse_scene(text, (folder / "scene.json").string());
@@ -63,17 +63,18 @@ std::string refusal_of(const fs::path& folder, const std::vector<float>& values,
   return "";
 }
 
-// Whether a cell of constant extinction looks as its chord says; places to 2^-20 of the box.
+// Whether a cell of constant extinction looks as its chord says; places as place_error() has them.
 void check_box(CaseRun& run, const std::string& name, const Scene& scene, const Values& values, double tau) {
   const Image image = run.draw(scene, values, slanted(), kSize, kSize);
   const glm::dvec3 half = 0.5 * scene.volume->extent();
-  const double moved = 2 * 0x1p-20, rounding = 40 * 0x1p-23 + 4 * moved * tau;
-  run.add_picture(name, image, "faces moved by 2^-20 of the box; n blends round once each", [&](int x, int y, int) {
-    const Ray ray = pixel_ray(slanted(), kSize, kSize, x, y);
-    const double exact = opacity(tau * box_chord(ray, half).length());
-    const auto of_box = [&](double grow) { return opacity(tau * box_chord(ray, half + grow).length()); };
-    return Allowed{exact, of_box(-moved) - rounding, of_box(moved) + rounding};
-  });
+  const double moved = place_error(kSize), rounding = 40 * 0x1p-23 + 4 * moved * tau;
+  run.add_picture(
+      name, image, "faces moved by pixels 2^-23 of the box; n blends round once each", [&](int x, int y, int) {
+        const Ray ray = pixel_ray(slanted(), kSize, kSize, x, y);
+        const double exact = opacity(tau * box_chord(ray, half).length());
+        const auto of_box = [&](double grow) { return opacity(tau * box_chord(ray, half + grow).length()); };
+        return Allowed{exact, of_box(-moved) - rounding, of_box(moved) + rounding};
+      });
 }
 
 }  // namespace

@@ -38,27 +38,28 @@ Scene transformed(const Scene& scene, double scale, const glm::dvec3& place) {
 }  // namespace
 
 void eight_bit_accumulation(CaseRun& run) {
-  const char* const source =
-      "a layer rounds to 0 of 255 below half a level; a blend that changes less than half a level "
-      "changes nothing";
-  run.add({.check = "slab of optical depth 1 in 256 slices, of 255 (exact: 161.19)",
-           .expected = 128,
-           .measured = level_of(run, 256, 1),
-           .bound = 0.01,
-           .source = source});
-  run.add({.check = "slab of optical depth 1 in 512 slices, of 255 (exact: 161.19)",
-           .expected = 0,
-           .measured = level_of(run, 512, 1),
-           .bound = 0.01,
-           .source = source});
+  // One level: blenders may take x / 255 as (x + (x >> 8) + 128) >> 8, which is less by up to one.
+  const char* const source = "half a level is lost, and divisions by 255 that are shifts lose up to one more";
+  if (run.steps_exactly()) {
+    run.add({.check = "slab of optical depth 1 in 256 slices, of 255 (exact: 161.19)",
+             .expected = 128,
+             .measured = level_of(run, 256, 1),
+             .bound = 1.01,
+             .source = source});
+    run.add({.check = "slab of optical depth 1 in 512 slices, of 255 (exact: 161.19)",
+             .expected = 0,
+             .measured = level_of(run, 512, 1),
+             .bound = 0.01,
+             .source = "a layer below half a level is nothing"});
+  }
   // Layers of opacity k / 255, until nothing changes: ceil(255 - 127.5 / k).
   constexpr int kLayers = 1024;
   for (const int k : {1, 2, 4, 8, 16})
     run.add({.check = fmt::format("white of opacity {}/255 onto black stalls, of 255", k),
              .expected = std::ceil(255 - 127.5 / k),
              .measured = level_of(run, kLayers, -kLayers * std::log1p(-k / 255.)),
-             .bound = 0.01,
-             .source = "ceil(255 - 127.5 / k)"});
+             .bound = 1.01,
+             .source = source});
 }
 
 void eight_bit_target(CaseRun& run) {
@@ -77,22 +78,30 @@ void eight_bit_target(CaseRun& run) {
 }
 
 void many_segments(CaseRun& run) {
-  // One pixel; the box is n steps deep, so that its width is what makes a voxel small enough.
+  // Opacity of a thin segment: 1 - exp(-x) taken as such loses all of it at x = 2^-25.
+  const View view = orthographic({0, 0, -1}, 0.5);
+  for (const double depth : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const Scene scene = scene_of(volume_of(ConstantField{1}, {3, 3, 3}), homogeneous(depth / 2));
+    run.add({.check = fmt::format("opacity of optical depth {:g} in two segments", depth),
+             .expected = -std::expm1(-depth),
+             .measured = centre(run.draw(scene, run.stepped(1), view, 1, 1)),
+             .bound = -std::expm1(-depth) * 0x1p-20,
+             .source = "2^-20 of itself: a few roundings"});
+  }
+  // One pixel and a box n steps deep. The error grows with n: the curve is in these rows.
   for (const double n : {1e3, 1e4, 1e5}) {
-    const double smallest = std::min(2. / n * 64, 1.);
-    Volume volume = volume_of(ConstantField{1}, {3, 3, 3});
-    volume.spacing = {smallest, smallest, 1};
-    volume.origin = {-smallest, -smallest, -1};
-    const Scene scene = scene_of(std::move(volume), homogeneous(0.5));
-    const Image image = run.draw(scene, run.stepped(2. / n / smallest), orthographic({0, 0, -1}, smallest / 2), 1, 1);
-    // Rounding errors of n blends, each uniform within 2^-25 of values below 1: six standard deviations of their sum;
-    // and the opacity of a segment, off by up to 2^-22 of itself.
-    run.add(
-        {.check = fmt::format("optical depth 1 in {:g} segments", n),
-         .expected = kSlabDepth,
-         .measured = centre(image),
-         .bound = 6 * std::sqrt(n / 3) * 0x1p-25 + 0x1p-21,
-         .source = "six standard deviations of n roundings of 2^-25; with 1 - exp in floats 1e5 segments err by 1e-3"});
+    const double cells = std::ceil(std::max(n / 63, 2.));
+    const Scene scene = scene_of(volume_of(ConstantField{1}, {3, 3, static_cast<int>(cells) + 1}), homogeneous(0.5));
+    try {
+      const View across = orthographic({0, 0, -1}, 1 / cells);
+      run.add({.check = fmt::format("optical depth 1 in {:g} segments", n),
+               .expected = kSlabDepth,
+               .measured = centre(run.draw(scene, run.stepped(cells / n), across, 1, 1)),
+               .bound = n * 0x1p-25 + 0x1p-21,
+               .source = "each blend rounds by up to 2^-25 of values below 1, all the same way at worst"});
+    } catch (const NotApplicable& why) {
+      run.not_applicable(fmt::format("optical depth 1 in {:g} segments", n), why.what());
+    }
   }
 }
 

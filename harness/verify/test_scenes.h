@@ -29,6 +29,11 @@ Scene homogeneous_cube(int samples, double depth);
 // A cloud of two octaves in perspective: smooth, coloured, nothing symmetric.
 Scene small_cloud();
 
+// How far a sample or the end of a chord may lie from its place, in world units, for a box of side 2. Places come from
+// plane equations through the corners of polygons, floats of 2^-24 of the box: across a picture of so many pixels a
+// polygon that is a pixel wide is off by that many times their rounding, once for each of its two gradients.
+inline double place_error(int pixels) { return 2 * 2 * pixels * 0x1p-24; }
+
 // The part of a ray inside of the axis-aligned box [-half, half]; the ray's t of entry and exit, empty where they
 // cross.
 struct Chord {

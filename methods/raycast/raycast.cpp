@@ -1,8 +1,11 @@
 #include "methods/raycast/raycast.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "methods/raycast/bricks.h"
 #include "methods/raycast/fixed_raycast.h"
@@ -77,6 +80,20 @@ double texture_rounding(const Volume& volume, const std::string& format) {
   return 0;
 }
 
+// Mesa's software drivers end the loops of a program, all together, after 65535 turns, and say nothing: what lies
+// behind would be missing.
+std::optional<std::string> too_many_segments(const Scene& scene, const Values& values, const BackendInfo& backend) {
+  if (!scene.volume || backend.renderer.find("llvmpipe") == std::string::npos) return std::nullopt;
+  constexpr double kTurns = 65535 - 64;
+  const double each = skips(values) ? 2 : 1;  // looking up a brick is a turn of its own
+  const double voxels = glm::length(scene.volume->extent()) / smallest_spacing(*scene.volume);
+  if (voxels / kStep(values) * each <= kTurns) return std::nullopt;
+  return fmt::format(
+      "rays of up to {:.0f} segments: {} ends a program's loops after 65535 turns; a step of {:.3g} voxels is the "
+      "least",
+      voxels / kStep(values), backend.renderer, voxels * each / kTurns);
+}
+
 MethodInfo make_info() {
   MethodInfo info;
   info.name = "raycast";
@@ -86,6 +103,7 @@ MethodInfo make_info() {
                      kBrickSize.info(),   kTableSize.info(),         kPreintegratedSize.info(), kVolumeFormat.info(),
                      kTargetFormat.info()};
   info.effects = {"lighting", "clip_planes", "fixed_point"};
+  info.exempt = {{"eight_bit_accumulation", "samples are summed in float registers, and the target rounds once"}};
   // Midpoint samples on the clipped ray, and pre-integrated segments with self-attenuation, are both of order 2. What
   // no step removes hides it: a target or a volume texture with few bits, rays that end early.
   info.expected_order = [](const Values& values) {
@@ -219,6 +237,7 @@ class Raycast final : public Method {
   std::optional<std::string> unsupported(const Scene& scene, const Values& values,
                                          const BackendInfo& backend) const override {
     if (auto reason = fixed_point_unsupported(scene, classification(values))) return reason;
+    if (auto reason = too_many_segments(scene, values, backend)) return reason;
     return volume_unsupported(scene, settings_of(scene, values), backend);
   }
   std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const override {
