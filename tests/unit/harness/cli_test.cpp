@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -146,6 +147,25 @@ TEST_F(Cli, RenderThenDiff) {
   expect("render slab -m reference --size 8x8 -o small.pfm", 0, "");
   expect("diff small.pfm ref.pfm", 2, "unequal size");
   EXPECT_TRUE(Json::parse(volumark("diff ray.pfm ref.pfm --json").text).contains("flip_p99"));
+}
+
+TEST_F(Cli, ProbeFollowsOnePixel) {
+  const std::string two = "probe slab -p 16,16 --size 32x32 -m texture3d_slices -m raycast --depths 9 ";
+  expect(two + "--out p.json", 0, "A and B do not part");
+  const Json json = Json::parse(text_of_file(folder_.path() / "p.json"));
+  EXPECT_EQ(json["curves"].size(), 3U);  // and the reference
+  EXPECT_NEAR(json["curves"][0]["samples"][8]["transmittance"].get<double>(), std::exp(-1.0), 1e-5);
+  expect(two + "--set texture3d_slices:opacity_correction=linear --set step=4 --out p.html", 0,
+         "A and B part at depth");
+  EXPECT_NE(text_of_file(folder_.path() / "p.html").find("<svg"), std::string::npos);
+  expect("probe slab -p 96,96 -m raycast -m raycast --set A:step=2 --set B:step=1 --depths 3", 0, "raycast step=1");
+  expect("probe slab -p 400,16 -m raycast", 2, "pixel 400,16 is not in the picture: it is 192x192");
+  expect("probe slab -p 0,0 -m raycast", 2, "misses the volume");
+  expect("probe slab -p 1 -m raycast", 2, "--pixel: expected x,y");
+  expect("probe slab -p 9,9 -m raycast --view 99", 2, "views 0 to 7");
+  expect("probe slab -p 9,9 -m raycst", 2, "did you mean");
+  expect("probe slab -p 9,9 -m raycast --set texture3d_slices:step=1", 2, "no --method that it speaks of");
+  expect("probe slab -p 9,9 -m raycast --out p.pdf", 2, ".html, .json or .svg");
 }
 
 TEST_F(Cli, RunValidateReport) {
