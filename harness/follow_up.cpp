@@ -26,13 +26,15 @@ void FollowUp::measured(const Cell& cell, const std::map<int, Image>& pictures) 
 }
 
 void FollowUp::run(const SceneContext& context, const CellOptions& options, Progress& progress) {
+  if (experiment_.attribute) fit_convergence(results_, experiments_);  // tells where errors stop falling
+  if (complete()) return;
+  if (context.want_references) context.want_references();  // no cell may have drawn: all were measured before
   if (context.missing || context.broken) return;
   if (experiment_.pairs) compare_pairs(context, options, progress);
   if (experiment_.attribute) attribute_cells(context, options, progress);
 }
 
 void FollowUp::attribute_cells(const SceneContext& context, const CellOptions& options, Progress& progress) {
-  fit_convergence(results_, experiments_);  // tells where errors stop falling
   for (const PlannedCell& planned : cells_to_attribute(groups_, results_)) {
     const Instant start = now();
     Attribution entry = attribute(planned, context, options, results_);

@@ -121,7 +121,11 @@ TEST_F(AttributionTest, ResumeKeepsWhatThereIsAndMakesWhatIsMissing) {
   ASSERT_EQ(again.results.attribution.size(), 2U);
   EXPECT_TRUE(std::any_of(again.results.attribution.begin(), again.results.attribution.end(),
                           [](const Attribution& entry) { return entry.command == "kept"; }));
-  EXPECT_EQ(again.results.pairs.size(), 1U);
+  for (const Attribution& entry : again.results.attribution)
+    for (const AttributionPart& part : entry.parts) EXPECT_GE(part.error, 0) << part.parameter << ": " << part.note;
+  ASSERT_EQ(again.results.pairs.size(), 1U);
+  EXPECT_GT(again.results.pairs[0].rmse, 0);
+  EXPECT_GT(again.results.pairs[0].bound, 0);
 }
 
 // A part that cannot be drawn says why and stops nothing: here no more than an instant is allowed.

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "scenes/scene_io.h"
+#include "scenes/sha256.h"
 #include "tests/unit/harness/test_folder.h"
 
 namespace volumark {
@@ -62,6 +63,45 @@ TEST(ReferenceCache, AnyFlippedByteAndAnyTruncationIsNoticed) {
   EXPECT_FALSE(cache.load(std::string(64, 'b')));
   folder.write(kKey + ".vmref", good);
   EXPECT_TRUE(cache.load(kKey));
+}
+
+// Whole, with a hash that fits: but of another version of the integrator, or of the file.
+TEST(ReferenceCache, AFileOfAnotherVersionIsNotUsed) {
+  const TestFolder folder;
+  const ReferenceCache cache(folder.path());
+  cache.store(kKey, sample());
+  const std::string good = text_of_file(cache.file_of(kKey));
+  const size_t payload = sample().bound.size() * 5 * sizeof(float);
+  const size_t head = good.size() - payload - 64;
+  const auto with = [&](size_t byte, int change) {
+    std::string front = good.substr(0, head), back = good.substr(head + 64);
+    front[byte] = static_cast<char>(front[byte] + change);
+    folder.write(kKey + ".vmref", front + sha256_hex(front + back) + back);
+    return cache.load(kKey).has_value();
+  };
+  EXPECT_TRUE(with(0, 0));
+  EXPECT_FALSE(with(8, 1));    // of the file
+  EXPECT_FALSE(with(12, 1));   // of the integrator
+  EXPECT_FALSE(with(12, -1));  // an older one
+}
+
+TEST(ReferenceCache, ATruncatedFileOrAFlippedBitIsMadeAnew) {
+  const TestFolder folder;
+  const ReferenceCache cache(folder.path());
+  Scene scene = load_scene("slab");
+  load_data(scene, {});
+  const Reference first = cache.get(scene, scene.views[0], 8, 6, {});
+  const std::string name = reference_key(scene, scene.views[0], 8, 6, {}) + ".vmref";
+  const std::string good = text_of_file(folder.path() / name);
+  std::string flipped = good;
+  flipped[good.size() - 100] = static_cast<char>(flipped[good.size() - 100] ^ 1);
+  for (const std::string& bad : {good.substr(0, good.size() / 2), flipped}) {
+    folder.write(name, bad);
+    bool cached = true;
+    EXPECT_EQ(cache.get(scene, scene.views[0], 8, 6, {}, &cached).image.rgba, first.image.rgba);
+    EXPECT_FALSE(cached);
+    EXPECT_EQ(text_of_file(folder.path() / name), good) << "it was not written again";
+  }
 }
 
 TEST(ReferenceCache, ADamagedFileIsMadeAnew) {
