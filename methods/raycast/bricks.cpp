@@ -185,18 +185,24 @@ OpaqueValues::Window OpaqueValues::window() const {
           end == places ? kAll : std::nextafter(value((end + 1) / 2 * 2), kAll)};
 }
 
-BrickDistances brick_distances(const BrickRanges& ranges, const OpaqueValues& opaque, double widen) {
+BrickDistances brick_distances(const glm::ivec3& count, const std::vector<uint8_t>& occupied) {
   BrickDistances out;
-  out.distance.resize(ranges.lo.size());
-  for (size_t i = 0; i < ranges.lo.size(); ++i) {
-    const bool occupied =
-        opaque.any(static_cast<double>(ranges.lo[i]) - widen, static_cast<double>(ranges.hi[i]) + widen);
-    out.distance[i] = occupied ? 0 : 255;
-    out.occupied += occupied;
+  out.distance.resize(occupied.size());
+  for (size_t i = 0; i < occupied.size(); ++i) {
+    out.distance[i] = occupied[i] != 0 ? 0 : 255;
+    out.occupied += occupied[i] != 0;
   }
-  sweep(out.distance, ranges.count, true);
-  sweep(out.distance, ranges.count, false);
+  sweep(out.distance, count, true);
+  sweep(out.distance, count, false);
   return out;
+}
+
+BrickDistances brick_distances(const BrickRanges& ranges, const OpaqueValues& opaque, double widen) {
+  std::vector<uint8_t> occupied(ranges.lo.size());
+  for (size_t i = 0; i < occupied.size(); ++i) {
+    occupied[i] = opaque.any(static_cast<double>(ranges.lo[i]) - widen, static_cast<double>(ranges.hi[i]) + widen);
+  }
+  return brick_distances(ranges.count, occupied);
 }
 
 }  // namespace volumark

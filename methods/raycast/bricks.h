@@ -53,6 +53,8 @@ struct BrickDistances {
   int64_t occupied = 0;
 };
 
+// `occupied`: not 0 for each brick that is, in the order of the ranges.
+BrickDistances brick_distances(const glm::ivec3& count, const std::vector<uint8_t>& occupied);
 // `widen` >= 0 (data units) covers the rounding of the volume's texture format.
 BrickDistances brick_distances(const BrickRanges& ranges, const OpaqueValues& opaque, double widen);
 

@@ -12,8 +12,11 @@ namespace volumark {
 
 extern const CpuProgram raycast_fixed_cpu;
 
-// `early_termination`: a ray ends where less than this part of what lies behind passes it.
+struct FixedRaySettings {
+  double early_termination = 0;  // a ray ends where less than this part of what lies behind passes it
+  int brick_size = 0;            // texels, rounded down to a power of two; 0: nothing is skipped
+};
 std::unique_ptr<PreparedMethod> prepare_fixed_raycast(const Scene& scene, const FixedSettings& settings,
-                                                      double early_termination, Device& device);
+                                                      const FixedRaySettings& rays, Device& device);
 
 }  // namespace volumark

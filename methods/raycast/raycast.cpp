@@ -243,7 +243,8 @@ class Raycast final : public Method {
   std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const override {
     if (scene.effects.fixed_point) {
       const FixedSettings settings{classification(values), false, kStep(values) * smallest_spacing(*scene.volume)};
-      return prepare_fixed_raycast(scene, settings, kEarlyTermination(values), device);
+      const int bricks = skips(values) ? static_cast<int>(kBrickSize(values)) : 0;
+      return prepare_fixed_raycast(scene, settings, {kEarlyTermination(values), bricks}, device);
     }
     return std::make_unique<PreparedRaycast>(scene, values, device);
   }

@@ -34,6 +34,12 @@ HWY_INLINE Floats inverse_length(const Axes& v) {
   return r;
 }
 
+// The bindings of raycast_fixed.frag.
+struct RayBindings : FixedBindings {
+  explicit RayBindings(const CpuBindings& bindings) : FixedBindings(bindings), distances(bindings.textures[3]) {}
+  const CpuTexture& distances;
+};
+
 // The samples of a ray that may lie inside: [first, end).
 struct Reach {
   Ints first, end;
@@ -65,8 +71,37 @@ HWY_INLINE void blend_under(const Ints4& s, Ints4& sum) {
   sum.a = clamped(hn::Add(sum.a, product(s.a, rest)));
 }
 
-template <FixedTexel kind>
-HWY_INLINE Ints4 march(const FixedBindings& b, Floats x, Floats y) {
+// How many samples from the one at t on are certainly transparent; 0 in an occupied brick.
+HWY_INLINE Ints empty_samples(const RayBindings& b, const Ints3& t, Floats z, const Axes& origin, const Axes& direction,
+                              Floats step_z) {
+  const FloatTag d;
+  const int shift = static_cast<int>(b.fx.bricks[3]);
+  const auto brick_of = [&](Ints v, float last) HWY_ATTR {
+    return hn::Min(hn::Max(hn::ShiftRightSame(v, 8 + shift), whole(0)), whole(last));
+  };
+  const Ints3 brick{brick_of(t.x, b.fx.bricks[0]), brick_of(t.y, b.fx.bricks[1]), brick_of(t.z, b.fx.bricks[2])};
+  const Ints rows = hn::Mul(brick.y, whole(static_cast<int32_t>(b.distances.row_stride)));
+  const Ints slices = hn::Mul(brick.z, whole(static_cast<int32_t>(b.distances.slice_stride)));
+  const Ints offset = hn::Add(brick.x, hn::Add(rows, slices));
+  const Ints reach = hn::And(gather_words(b.distances.data, offset), whole(255));
+  const auto until = [&](Ints at, Floats o, Floats v) HWY_ATTR {
+    const Floats tiny = splat(1e-20F), margin = splat(.02F);
+    const Floats along = hn::IfThenElse(hn::Lt(hn::Abs(v), tiny), tiny, v);
+    const FloatMask forward = hn::Ge(along, splat(0.F));
+    const Ints far = hn::ShiftLeftSame(hn::Add(at, reach), shift);
+    const Ints near = hn::ShiftLeftSame(hn::Sub(hn::Add(at, whole(1)), reach), shift);
+    const Floats face =
+        hn::IfThenElse(forward, hn::Sub(hn::ConvertTo(d, far), margin), hn::Add(hn::ConvertTo(d, near), margin));
+    return hn::Div(hn::Sub(face, o), along);
+  };
+  const Floats leaves = hn::Min(until(brick.x, origin.x, direction.x),
+                                hn::Min(until(brick.y, origin.y, direction.y), until(brick.z, origin.z, direction.z)));
+  const Floats steps = hn::Min(hn::Max(hn::Div(hn::Sub(leaves, z), step_z), splat(1.F)), splat(65536.F));
+  return hn::IfThenElseZero(hn::Gt(reach, whole(0)), truncate(steps));
+}
+
+template <FixedTexel kind, bool skips>
+HWY_INLINE Ints4 march(const RayBindings& b, Floats x, Floats y) {
   const FloatTag d;
   const IntTag di;
   const FixedUniforms& fx = b.fx;
@@ -76,38 +111,54 @@ HWY_INLINE Ints4 march(const FixedBindings& b, Floats x, Floats y) {
   const Floats step_z = fx.depth[2] > 0 ? hn::Mul(splat(fx.depth[1]), inverse_length(world)) : splat(fx.depth[1]);
   const Reach reach = reach_of(fx, origin, direction, step_z);
   Ints4 sum = nothing();
-  Ints end = reach.end;
-  for (Ints k = reach.first;; k = hn::Add(k, whole(1))) {
+  Ints k = reach.first, end = reach.end;
+  for (;;) {
     const IntMask active = hn::Lt(k, end);
     if (hn::AllFalse(di, active)) return sum;
     const Floats z = depth_of(fx, hn::ConvertTo(d, k), step_z);
-    blend_under(fixed_sample<kind>(b, position_of(origin, direction, z), active), sum);
+    const Ints3 t = position_of(origin, direction, z);
+    if constexpr (skips) {
+      const Ints skipped = empty_samples(b, t, z, origin, direction, step_z);
+      const IntMask wanted = hn::And(active, hn::Eq(skipped, whole(0)));
+      k = hn::Add(k, hn::Max(skipped, whole(1)));
+      if (hn::AllFalse(di, wanted)) continue;
+      blend_under(fixed_sample<kind>(b, t, wanted), sum);
+    } else {
+      k = hn::Add(k, whole(1));
+      blend_under(fixed_sample<kind>(b, t, active), sum);
+    }
     const Floats rest = hn::ConvertTo(d, hn::Sub(whole(255), sum.a));
     end = hn::IfThenElse(hn::RebindMask(di, hn::Lt(rest, splat(fx.lighting[3]))), whole(0), end);
   }
 }
 
-template <FixedTexel kind>
+template <FixedTexel kind, bool skips>
 void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
-  const FixedBindings b(bindings);
-  for_lanes(batch.count,
-            [&](size_t i) HWY_ATTR { store_levels(batch, i, march<kind>(b, load(batch.x + i), load(batch.y + i))); });
+  const RayBindings b(bindings);
+  for_lanes(batch.count, [&](size_t i) HWY_ATTR {
+    store_levels(batch, i, march<kind, skips>(b, load(batch.x + i), load(batch.y + i)));
+  });
 }
 
-CpuKernels specialise(std::span<const int32_t> constants) {
-  CpuKernels kernels;
-  kernels.vertex = vertex;
-  switch (fixed_texel(constants)) {
+template <bool skips>
+CpuFragmentKernel fragment_of(FixedTexel kind) {
+  switch (kind) {
     case FixedTexel::Value:
-      kernels.fragment = fragment<FixedTexel::Value>;
-      break;
+      return fragment<FixedTexel::Value, skips>;
     case FixedTexel::Lit:
-      kernels.fragment = fragment<FixedTexel::Lit>;
-      break;
+      return fragment<FixedTexel::Lit, skips>;
     case FixedTexel::Classified:
-      kernels.fragment = fragment<FixedTexel::Classified>;
       break;
   }
+  return fragment<FixedTexel::Classified, false>;  // no values that bricks could be made of
+}
+
+// Constants in the order of their ids: fixed_point.glsl, then VM_SKIP_EMPTY.
+CpuKernels specialise(std::span<const int32_t> constants) {
+  const FixedTexel kind = fixed_texel(constants);
+  CpuKernels kernels;
+  kernels.vertex = vertex;
+  kernels.fragment = constants[5] != 0 ? fragment_of<true>(kind) : fragment_of<false>(kind);
   kernels.reads_front_facing = false;
   return kernels;
 }

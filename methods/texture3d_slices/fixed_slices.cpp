@@ -20,7 +20,7 @@ class PreparedFixedSlices final : public PreparedMethod {
         device_(device),
         step_(settings.step),
         front_to_back_(front_to_back),
-        resources_(scene, settings, device),
+        resources_(scene, fixed_texels(scene, settings), fixed_palette(scene, settings), device),
         uniforms_(device, "slice uniforms"),
         vertices_(device, "slice vertices"),
         indices_(device, "slice indices") {

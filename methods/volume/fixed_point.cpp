@@ -92,21 +92,22 @@ FixedUniforms fixed_uniforms(const Scene& scene, const View& view, int width, in
   return uniforms;
 }
 
-FixedResources::FixedResources(const Scene& scene, const FixedSettings& settings, Device& device) : device_(device) {
-  const bool scalar = settings.classification != Classification::Pre && !scene.effects.lighting;
-  const std::vector<uint8_t> texels = fixed_texels(scene, settings), palette = fixed_palette(scene, settings);
+FixedResources::FixedResources(const Scene& scene, std::span<const uint8_t> texels, std::span<const uint8_t> palette,
+                               Device& device)
+    : device_(device) {
   const glm::ivec3 size = scene.volume->size;
+  const auto voxels = static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * static_cast<size_t>(size.z);
   volume_ = device.create_texture({.label = "8-bit volume",
                                    .dimension = 3,
-                                   .format = scalar ? Format::R8 : Format::RGBA8,
+                                   .format = texels.size() == voxels ? Format::R8 : Format::RGBA8,
                                    .width = size.x,
                                    .height = size.y,
                                    .depth = size.z,
-                                   .data = bytes_of(texels)});
+                                   .data = std::as_bytes(texels)});
   // The destructor does not run when a constructor throws.
   try {
     palette_ = device.create_texture(
-        {.label = "palette", .dimension = 1, .format = Format::RGBA8, .width = 256, .data = bytes_of(palette)});
+        {.label = "palette", .dimension = 1, .format = Format::RGBA8, .width = 256, .data = std::as_bytes(palette)});
   } catch (...) {
     device.destroy(volume_);
     throw;

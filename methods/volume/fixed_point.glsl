@@ -33,6 +33,7 @@ layout(std140, binding = 0) uniform FixedUniforms {
   vec4 last;                                 // largest texel index
   vec4 lighting;                             // ambient, levels; w: a ray ends where fewer levels pass it
   vec4 counts;                               // lights, clip planes, squarings + 1, 1 two-sided: for the CPU twin
+  vec4 bricks;                               // last brick index; w: a brick is 2^w texels wide
   vec4 clip_planes[16];                      // keeps dot(xyz, t) >= w
   FixedLight lights[8];
 }

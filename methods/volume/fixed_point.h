@@ -34,10 +34,11 @@ struct FixedUniforms {
   Float4 last{};
   Float4 lighting{};
   Float4 counts{};
+  Float4 bricks{};
   Float4 clip_planes[kMaxClipPlanes]{};
   FixedLight lights[kMaxFixedLights]{};
 };
-static_assert(sizeof(FixedUniforms) == (12 + kMaxClipPlanes + 4 * kMaxFixedLights) * 16);
+static_assert(sizeof(FixedUniforms) == (13 + kMaxClipPlanes + 4 * kMaxFixedLights) * 16);
 
 struct FixedSettings {
   Classification classification = Classification::Post;  // Post or Pre
@@ -58,13 +59,14 @@ std::vector<uint8_t> fixed_palette(const Scene& scene, const FixedSettings& sett
 // (associated colour, opacity).
 std::vector<uint8_t> fixed_texels(const Scene& scene, const FixedSettings& settings);
 
-// Fills everything but limit.w and lighting.w, which are for programs that walk along a ray.
+// Fills everything but limit.w, lighting.w and bricks, which are for programs that walk along a ray.
 FixedUniforms fixed_uniforms(const Scene& scene, const View& view, int width, int height, double step);
 
 // What the programs read; owns its objects, dies before the Device.
 class FixedResources {
  public:
-  FixedResources(const Scene& scene, const FixedSettings& settings, Device& device);
+  // `texels` and `palette`: of fixed_texels and fixed_palette.
+  FixedResources(const Scene& scene, std::span<const uint8_t> texels, std::span<const uint8_t> palette, Device& device);
   ~FixedResources();
   FixedResources(const FixedResources&) = delete;
   FixedResources& operator=(const FixedResources&) = delete;

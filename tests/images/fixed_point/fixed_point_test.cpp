@@ -156,6 +156,23 @@ TEST(FixedPointBits, OfRaysAndOfSlicesFrontToBack) {
   for (size_t i = 0; i < views.size(); ++i) EXPECT_EQ(difference(slices[i], rays[i]).max, 0) << "view " << i;
 }
 
+// Bricks that are jumped over hold nothing but samples that add nothing.
+TEST(FixedPointBits, OfRaysThatSkipOrDoNot) {
+  Device device = make_device(backend_id(), device_options());
+  const Scene scene = smooth(std::string(kOneSided) + kClipped), cloud = with_fixed_point(shipped_scene("cloud"));
+  for (const Scene* one : {&scene, &cloud}) {
+    for (const bool perspective : {false, true}) {
+      const auto views = views_of(*one, perspective);
+      const auto all = pictures(device, *one, "raycast", {{"skip_empty", "none"}}, views);
+      for (const char* size : {"2", "7", "16"}) {
+        const auto skipping = pictures(device, *one, "raycast", {{"brick_size", size}}, views);
+        for (size_t i = 0; i < views.size(); ++i)
+          EXPECT_EQ(difference(all[i], skipping[i]).max, 0) << size << ", " << i;
+      }
+    }
+  }
+}
+
 TEST(FixedPointBits, OfAnyNumberOfThreads) {
   if (backend_id() != "cpu") return;  // threads are an option of the cpu backend
   DeviceOptions one = device_options(), three = device_options();
