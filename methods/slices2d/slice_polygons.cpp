@@ -56,21 +56,17 @@ Body slab_body(const glm::dvec3& extent, const ViewRays& rays, double low, doubl
   return body;
 }
 
+// The first page that holds the stored slices up to half of one past the slice; the next page begins early enough for
+// those before it.
 int page_of(const Slices& slices, const StackLayout& layout, int slice) {
-  const int stored = slices.below(slice);
+  const double last = std::ceil(slices.stored_at(slice) + 0.5 - 1e-9);
   int page = 0;
-  while (page + 1 < static_cast<int>(layout.pages.size()) && layout.pages[static_cast<size_t>(page)].last <= stored)
+  while (page + 1 < static_cast<int>(layout.pages.size()) && layout.pages[static_cast<size_t>(page)].last < last)
     ++page;
   return page;
 }
 
 }  // namespace
-
-int Slices::below(int k) const {
-  return std::clamp(static_cast<int>(std::floor(k * stored_each + 1e-9)), 0, std::max(stored - 2, 0));
-}
-
-bool Slices::are_stored() const { return stored == 1 || stored_each == std::floor(stored_each); }
 
 Slices slices_of(int stored, int64_t percent) {
   Slices slices;
@@ -80,7 +76,6 @@ Slices slices_of(int stored, int64_t percent) {
   if (stored > 1 && intervals > 0) {
     slices.count = intervals + 1;
     slices.distance = 1. / intervals;
-    slices.stored_each = static_cast<double>(stored - 1) / intervals;
     return slices;
   }
   slices.count = stored > 1 ? 1 : std::max(1, static_cast<int>(std::lround(share)));

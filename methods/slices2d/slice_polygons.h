@@ -16,13 +16,10 @@ struct Slices {
   int count = 0;
   int stored = 0;
   double first = 0, distance = 1;  // box coordinates
-  double stored_each = 0;          // slice k lies at stored slice k * stored_each
 
   double position(double k) const { return first + k * distance; }
-  // The stored slice at or below slice k, one below the last at most: k lies between it and the next one.
-  int below(int k) const;
-  // Every slice is a stored one: nothing is to be interpolated.
-  bool are_stored() const;
+  // Slice k among the stored ones: 2.5 lies half way between the third and the fourth.
+  double stored_at(double k) const { return position(k) * (stored - 1); }
 };
 Slices slices_of(int stored, int64_t percent);
 

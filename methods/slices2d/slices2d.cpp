@@ -99,18 +99,13 @@ class PreparedSlices2d final : public PreparedMethod {
         uniforms_(device, "slice uniforms"),
         vertices_(device, "slice vertices"),
         indices_(device, "slice indices") {
-    // Slices that are all stored ones, whatever the stack, are not interpolated: the paper's plain slices.
-    bool interpolates = parameters::interpolation()(values);
-    bool stored = true;
-    for (int axis = 0; axis < 3; ++axis) stored = stored && slices_of(scene.volume->size[axis], percent_).are_stored();
-    if (stored) interpolates = false;
     ProgramDesc program;
     program.label = "slices2d";
     program.stages = {&programs::slices2d_vert, &programs::slices2d_frag};
     program.bindings = SliceStacks::declarations();
     program.constants = VolumeResources::constants(scene, classification_in(values), linear_opacity(values));
     program.constants.push_back({"VM_TEXTURES", textures_});
-    program.constants.push_back({"VM_INTERPOLATE", interpolates ? 1 : 0});
+    program.constants.push_back({"VM_INTERPOLATE", parameters::interpolation()(values) ? 1 : 0});
     program.constants.push_back({"VM_CORRECTED", corrected_ ? 1 : 0});
     program.cpu = &slices2d_twin;
     program_ = device.create_program(program);
@@ -154,7 +149,8 @@ std::vector<std::byte> PreparedSlices2d::uniforms_of(const View& view, const Sli
                                                      int width, int height) const {
   VolumeUniforms uniforms = turned(volume_uniforms(scene_, view, width, height), layout.axis);
   stacks_.fill(uniforms);
-  uniforms.own[0] = {2.F / static_cast<float>(width), -2.F / static_cast<float>(height), -1, 1};
+  uniforms.own[0] = {2.F / static_cast<float>(width), -2.F / static_cast<float>(height),
+                     static_cast<float>(slices.stored_at(0)), static_cast<float>(slices.stored - 1)};
   std::vector<std::byte> blocks(kBlock * layout.pages.size());
   for (size_t i = 0; i < layout.pages.size(); ++i) {
     const StackPage& page = layout.pages[i];
@@ -165,7 +161,7 @@ std::vector<std::byte> PreparedSlices2d::uniforms_of(const View& view, const Sli
     uniforms.own[2] = {static_cast<float>(texel.x), static_cast<float>(texel.y), static_cast<float>(page.columns),
                        static_cast<float>(page.first)};
     uniforms.own[3] = {static_cast<float>(slices.first), static_cast<float>(slices.distance),
-                       static_cast<float>(slices.stored_each), static_cast<float>(page.last)};
+                       static_cast<float>(slices.distance * (slices.stored - 1)), static_cast<float>(page.last)};
     const std::span<const std::byte> block = bytes_of(uniforms);
     std::copy(block.begin(), block.end(), blocks.begin() + static_cast<ptrdiff_t>(kBlock * i));
   }

@@ -27,23 +27,28 @@ struct alignas(64) Lane {
 
 // What main() of the fragment program keeps of the ray and the polygon.
 struct Rays {
-  Lane origin_x, origin_y, origin_z, direction_x, direction_y;
+  Lane origin_x, origin_y, origin_z, direction_x, direction_y, direction_z;
   Lane begin, end, unit, inverse;
   Lane first, toward, count;
 };
 // Of one slice.
 struct Meets {
-  Lane face, x, y, length;
+  Lane face, x, y, z, length;
+};
+
+struct Slab {
+  Floats middle, thickness;
 };
 
 struct SliceBindings : VolumeBindings {
   const CpuTexture& page;
   explicit SliceBindings(const CpuBindings& bindings) : VolumeBindings(bindings), page(bindings.textures[4]) {}
   HWY_INLINE Floats slice_position(Floats k) const { return hn::MulAdd(k, splat(vm.own[3][1]), splat(vm.own[3][0])); }
-  HWY_INLINE Floats slab_thickness(Floats k) const {
+  HWY_INLINE Slab slab_of(Floats k) const {
     const Floats half = splat(.5F);
-    return hn::Sub(hn::Min(slice_position(hn::Add(k, half)), splat(1.F)),
-                   hn::Max(slice_position(hn::Sub(k, half)), splat(0.F)));
+    const Floats low = hn::Max(slice_position(hn::Sub(k, half)), splat(0.F));
+    const Floats high = hn::Min(slice_position(hn::Add(k, half)), splat(1.F));
+    return {hn::Mul(half, hn::Add(low, high)), hn::Sub(high, low)};
   }
 };
 
@@ -63,8 +68,8 @@ HWY_NOINLINE void locate(const SliceBindings& b, const FragmentBatch& batch, Ray
   const Floats half = splat(.5F), one = splat(1.F);
   const bool clips = vm.counts[1] > 0;
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
-    const Floats x = hn::MulAdd(load(batch.x + i), splat(vm.own[0][0]), splat(vm.own[0][2]));
-    const Floats y = hn::MulAdd(load(batch.y + i), splat(vm.own[0][1]), splat(vm.own[0][3]));
+    const Floats x = hn::MulAdd(load(batch.x + i), splat(vm.own[0][0]), splat(-1.F));
+    const Floats y = hn::MulAdd(load(batch.y + i), splat(vm.own[0][1]), one);
     const Floats3 origin = ray_origin(vm, x, y), direction = ray_direction(vm, x, y);
     Floats z0 = splat(vm.depth[0]), z1 = splat(1e30F);
     if (clips) {
@@ -82,6 +87,7 @@ HWY_NOINLINE void locate(const SliceBindings& b, const FragmentBatch& batch, Ray
     rays.origin_z.put(i, origin.z);
     rays.direction_x.put(i, direction.x);
     rays.direction_y.put(i, direction.y);
+    rays.direction_z.put(i, direction.z);
     rays.begin.put(i, z0);
     rays.end.put(i, z1);
     rays.unit.put(i, ray_length(vm, direction));
@@ -105,9 +111,10 @@ HWY_NOINLINE void meet(const SliceBindings& b, const Rays& rays, float number, s
     const Floats begin = hn::Max(rays.begin.get(i), hn::Min(face, next));
     const Floats end = hn::Min(rays.end.get(i), hn::Max(face, next));
     meets.face.put(i, next);
-    const Floats at = hn::Min(hn::Max(hn::Mul(hn::Sub(b.slice_position(k), origin_z), inverse), begin), end);
-    meets.x.put(i, hn::MulAdd(at, rays.direction_x.get(i), rays.origin_x.get(i)));
-    meets.y.put(i, hn::MulAdd(at, rays.direction_y.get(i), rays.origin_y.get(i)));
+    const Floats middle = hn::Mul(half, hn::Add(begin, end));
+    meets.x.put(i, hn::MulAdd(middle, rays.direction_x.get(i), rays.origin_x.get(i)));
+    meets.y.put(i, hn::MulAdd(middle, rays.direction_y.get(i), rays.origin_y.get(i)));
+    meets.z.put(i, hn::MulAdd(middle, rays.direction_z.get(i), origin_z));
     const Floats length = hn::Mul(hn::Sub(end, begin), rays.unit.get(i));
     meets.length.put(i, hn::IfThenElseZero(hn::Lt(begin, end), length));
   });
@@ -118,8 +125,10 @@ HWY_NOINLINE void stay(const SliceBindings& b, const Rays& rays, float number, s
   for_lanes(size, [&](size_t i) HWY_ATTR {
     const Floats toward = rays.toward.get(i);
     const Floats k = hn::MulAdd(toward, splat(number), rays.first.get(i));
-    const Floats ratio = hn::Div(b.slab_thickness(k), b.slab_thickness(hn::Sub(k, toward)));
+    const Slab slab = b.slab_of(k);
+    const Floats ratio = hn::Div(slab.thickness, b.slab_of(hn::Sub(k, toward)).thickness);
     meets.length.put(i, hn::Mul(meets.length.get(i), ratio));
+    meets.z.put(i, slab.middle);
   });
 }
 
@@ -170,14 +179,15 @@ struct AnyPage {
 };
 
 template <bool interpolate, class Page>
-HWY_INLINE Rgba sample_slice(const VolumeUniforms& vm, const Page& page, Floats k, Floats x, Floats y) {
+HWY_INLINE Rgba sample_slice(const VolumeUniforms& vm, const Page& page, Floats k, const Floats3& box) {
   const Floats first = splat(vm.own[2][3]), last = splat(vm.own[3][3]), one = splat(1.F);
-  const Floats ax = hn::MulAdd(clamp01(x), splat(vm.texture_scale[0]), splat(vm.texture_offset[0]));
-  const Floats ay = hn::MulAdd(clamp01(y), splat(vm.texture_scale[1]), splat(vm.texture_offset[1]));
-  const Floats stored = hn::Mul(k, splat(vm.own[3][2]));
+  const Floats ax = hn::MulAdd(clamp01(box.x), splat(vm.texture_scale[0]), splat(vm.texture_offset[0]));
+  const Floats ay = hn::MulAdd(clamp01(box.y), splat(vm.texture_scale[1]), splat(vm.texture_offset[1]));
   if constexpr (!interpolate) {
+    const Floats stored = hn::MulAdd(k, splat(vm.own[3][2]), splat(vm.own[0][2]));
     return page(hn::Min(hn::Max(hn::Floor(hn::Add(stored, splat(.5F))), first), last), ax, ay);
   } else {
+    const Floats stored = hn::Mul(box.z, splat(vm.own[0][3]));
     const Floats below = hn::Min(hn::Max(hn::Floor(stored), first), hn::Max(hn::Sub(last, one), first));
     const Floats above = hn::Min(hn::Add(below, one), last);
     return mix(page(below, ax, ay), page(above, ax, ay), clamp01(hn::Sub(stored, below)));
@@ -194,7 +204,7 @@ HWY_NOINLINE void add_slice(const SliceBindings& b, const Page& page, const Rays
     const Floats length = hn::IfThenElseZero(drawn, meets.length.get(i));
     if (all_zero(length)) return;
     const Floats k = hn::MulAdd(rays.toward.get(i), splat(number), rays.first.get(i));
-    const Rgba texel = sample_slice<interpolate>(b.vm, page, k, meets.x.get(i), meets.y.get(i));
+    const Rgba texel = sample_slice<interpolate>(b.vm, page, k, {meets.x.get(i), meets.y.get(i), meets.z.get(i)});
     Rgba slice;
     if constexpr (pre) {
       slice = shade_classified<linear_opacity>(b, texel, length);

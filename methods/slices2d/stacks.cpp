@@ -72,10 +72,11 @@ std::optional<StackLayout> stack_layout(const glm::ivec3& size, int axis, int li
   layout.slices = size[axis];
   const glm::ivec2 tile = layout.tile();
   if (tile.x > limit || tile.y > limit) return std::nullopt;
-  // Two slices at least, side by side along the shorter side of a tile.
+  // Three slices at least, side by side along the shorter side of a tile.
+  const int least = std::min(layout.slices, 3);
   int columns = tiles_in(std::min(kPageExtent, limit), tile.x), rows = tiles_in(std::min(kPageExtent, limit), tile.y);
-  if (columns * rows < 2 && layout.slices > 1) {
-    (tile.x < tile.y ? columns : rows) = 2;
+  if (columns * rows < least) {
+    (tile.x < tile.y ? columns : rows) = least;
     if (columns * tile.x > limit || rows * tile.y > limit) return std::nullopt;
   }
   const int capacity = columns * rows;
@@ -91,7 +92,7 @@ std::optional<StackLayout> stack_layout(const glm::ivec3& size, int axis, int li
     page.rows = (count + page.columns - 1) / page.columns;
     layout.pages.push_back(page);
     if (page.last == layout.slices - 1) return layout;
-    first = page.last;
+    first = page.last - 1;
   }
 }
 
@@ -206,7 +207,7 @@ std::optional<std::string> stacks_unsupported(const Scene& scene, const VolumeSe
     const glm::ivec3 size = scene.volume->size;
     for (int axis = 0; axis < 3; ++axis) {
       if (!stack_layout(size, axis, backend.limits.texture_2d)) {
-        return fmt::format("the volume is {}x{}x{}: two slices of stack {} need more than the {} texels a side of {}",
+        return fmt::format("the volume is {}x{}x{}: three slices of stack {} need more than the {} texels a side of {}",
                            size.x, size.y, size.z, "ijk"[axis], backend.limits.texture_2d, backend.id);
       }
     }

@@ -4,8 +4,9 @@
 // A stack is a few pages: large 2D textures that hold its slices as tiles, row by row. The paper binds a texture a
 // slice; with pages a stack is one draw instead of hundreds, and a program reads any slice of the page. Each tile has
 // a gutter of one texel that repeats its edge, so that bilinear filtering never reaches into the next tile.
-// Neighbouring pages share a slice: the two stored slices around an intermediate one always lie in one page. Pages stay
-// below kPageExtent where a pair of slices fits: texture coordinates are floats, good to 2^-13 of a texel there.
+//
+// Neighbouring pages share two slices: whatever lies up to half a slice around a slice that is drawn lies in one page.
+// Pages stay below kPageExtent where three slices fit: texture coordinates are floats, good to 2^-13 of a texel there.
 //
 // The stack's frame: local and box coordinates with the axes renamed in a circle, so that z runs across the slices.
 // Every vector that a program gets is given in it, and one program draws all three stacks.
@@ -39,7 +40,7 @@ struct StackLayout {
   size_t texels() const;  // of all pages
 };
 
-// Nothing where not even two slices fit into a texture of `limit` texels a side.
+// Nothing where not even three slices (or all that there are) fit into a texture of `limit` texels a side.
 std::optional<StackLayout> stack_layout(const glm::ivec3& size, int axis, int limit);
 
 // The frame of the stack of `axis`.

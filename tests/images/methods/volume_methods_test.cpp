@@ -109,7 +109,8 @@ TEST_P(VolumeMethods, AgreesWithTheReferenceUnderLights) {
   expect_close_to_reference(device, method, scene, 1e-3, 2e-2);
 }
 
-// Order of the root mean square error from a step of 4 voxels to one of 1, with one more setting.
+// Order of the root mean square error from a step of 4 voxels to one of 1, with one more setting. Slices of stacks lie
+// on the samples, where the interpolated field has its kinks: their error has its constant from a step of 1 on.
 double fitted_order(Device& device, const std::string& method, const Scene& scene, const char* name,
                     const char* value) {
   const View& view = scene.views[0];
@@ -119,7 +120,8 @@ double fitted_order(Device& device, const std::string& method, const Scene& scen
     const Settings settings = {{spacing.name, spacing.value.c_str()}, {name, value}};
     return difference(draw(device, scene, method, settings, view, 64, 64).image, reference).rmse;
   };
-  return std::log(error(4) / error(1)) / std::log(4.0);
+  const double first = method == "slices2d" ? 1 : 4;
+  return std::log(error(first) / error(first / 4)) / std::log(4.0);
 }
 
 TEST_P(VolumeMethods, ConvergeWithOrderTwo) {

@@ -98,7 +98,7 @@ TEST_F(Slices2d, WithoutInterpolationMoreSlicesDoNotHelp) {
   const auto error = [&](const char* slices, const char* interpolation) {
     return difference(picture(scene, {{"slices", slices}, {"interpolation", interpolation}}), reference).rmse;
   };
-  EXPECT_NEAR(error("100", "false"), error("100", "true"), 1e-12) << "stored slices alone";
+  EXPECT_LE(error("100", "false"), 1.5 * error("100", "true")) << "at stored slices it matters at the rim only";
   EXPECT_GT(error("800", "false"), 10 * error("800", "true"));
   EXPECT_GT(error("800", "false"), 0.5 * error("100", "false"));
 }

@@ -14,7 +14,7 @@ namespace {
 
 // ---- Pages ----
 
-TEST(StackLayout, EverySliceAndEveryPairLiesInAPage) {
+TEST(StackLayout, PagesHoldEverySliceAndShareTwo) {
   for (const glm::ivec3 size : {glm::ivec3(256, 256, 256), glm::ivec3(300, 5, 2000), glm::ivec3(1, 1, 1),
                                 glm::ivec3(1, 9, 70), glm::ivec3(3000, 2100, 3)}) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -24,12 +24,12 @@ TEST(StackLayout, EverySliceAndEveryPairLiesInAPage) {
       EXPECT_EQ(layout->slice, glm::ivec2(size[(axis + 1) % 3], size[(axis + 2) % 3]));
       int next = 0;
       for (const StackPage& page : layout->pages) {
-        EXPECT_EQ(page.first, next) << "pages share one slice";
+        EXPECT_EQ(page.first, next);
         EXPECT_GE(page.columns * page.rows, page.last - page.first + 1);
         EXPECT_LT((page.rows - 1) * page.columns, page.last - page.first + 1) << "no row is empty";
         const glm::ivec2 extent = layout->extent(page);
-        EXPECT_LE(std::max(extent.x, extent.y), std::max(kPageExtent, 2 * std::max(size.x, std::max(size.y, size.z))));
-        next = page.last;
+        EXPECT_LE(std::max(extent.x, extent.y), std::max(kPageExtent, 3 * (2100 + 2)));
+        next = page.last - 1;
       }
       EXPECT_EQ(layout->pages.back().last, size[axis] - 1);
     }
@@ -39,11 +39,11 @@ TEST(StackLayout, EverySliceAndEveryPairLiesInAPage) {
 TEST(StackLayout, MoreThanOnePageWhereOneWouldBeTooLarge) {
   EXPECT_EQ(stack_layout({128, 128, 128}, 2, 16384)->pages.size(), 1U);
   EXPECT_EQ(stack_layout({256, 256, 256}, 2, 16384)->pages.size(), 2U);
-  EXPECT_EQ(stack_layout({2100, 2100, 3}, 2, 16384)->pages.size(), 2U) << "two slices a page at least";
+  EXPECT_EQ(stack_layout({2100, 2100, 4}, 2, 16384)->pages.size(), 2U) << "three slices a page at least";
 }
 
 TEST(StackLayout, RefusesWhatDoesNotFit) {
-  EXPECT_FALSE(stack_layout({5000, 5000, 4}, 2, 8192)) << "not two of these";
+  EXPECT_FALSE(stack_layout({5000, 5000, 4}, 2, 8192)) << "not three of these";
   EXPECT_TRUE(stack_layout({5000, 5000, 1}, 2, 8192)) << "but one";
   EXPECT_FALSE(stack_layout({9000, 10, 1}, 2, 8192));
 }
@@ -73,17 +73,14 @@ TEST(SliceStacks, ThreeStacksAreCounted) {
 TEST(Slices, StoredOnesAtOneHundredPercent) {
   const Slices slices = slices_of(5, 100);
   ASSERT_EQ(slices.count, 5);
-  EXPECT_TRUE(slices.are_stored());
   for (int k = 0; k < 5; ++k) EXPECT_DOUBLE_EQ(slices.position(k), k / 4.);
 }
 
 TEST(Slices, FourHundredPercentIsThreeBetweenEachTwo) {
   const Slices slices = slices_of(5, 400);
   EXPECT_EQ(slices.count, 17);
-  EXPECT_FALSE(slices.are_stored());
-  EXPECT_EQ(slices.below(3), 0);
-  EXPECT_EQ(slices.below(4), 1);
-  EXPECT_EQ(slices.below(16), 3) << "the last one is above the last but one";
+  EXPECT_DOUBLE_EQ(slices.stored_at(3), 0.75);
+  EXPECT_DOUBLE_EQ(slices.stored_at(16), 4);
   EXPECT_DOUBLE_EQ(slices.position(16), 1);
 }
 
@@ -92,7 +89,14 @@ TEST(Slices, OneStoredSliceFillsTheBox) {
   EXPECT_EQ(slices.count, 4);
   EXPECT_DOUBLE_EQ(slices.position(-0.5), 0);
   EXPECT_DOUBLE_EQ(slices.position(3.5), 1);
-  EXPECT_EQ(slices.below(3), 0);
+  EXPECT_DOUBLE_EQ(slices.stored_at(3), 0);
+}
+
+TEST(Slices, FewerThanTheStoredOnes) {
+  const Slices one = slices_of(5, 10);
+  EXPECT_EQ(one.count, 1);
+  EXPECT_DOUBLE_EQ(one.stored_at(0), 2) << "in the middle";
+  EXPECT_EQ(slices_of(5, 50).count, 3);
 }
 
 TEST(Slices, SlabsFillTheBoxForAnyPercentage) {
@@ -196,9 +200,10 @@ TEST(SliceGroups, EverySliceOnceInGroupsOfOnePage) {
     pages.insert(group.page);
     const StackPage& page = layout.pages[static_cast<size_t>(group.page)];
     for (int i = 0; i < group.count; ++i) {
-      const int below = slices.below(group.first + group.direction * i);
-      EXPECT_GE(below, page.first);
-      EXPECT_LE(below + 1, page.last);
+      // All that lies half a stored slice around it, as far as the stack goes.
+      const double at = slices.stored_at(group.first + group.direction * i);
+      EXPECT_GE(std::floor(std::max(at - 0.5, 0.) + 1e-9), page.first);
+      EXPECT_LE(std::ceil(std::min(at + 0.5, 255.) - 1e-9), page.last);
     }
   }
   EXPECT_EQ(pages.size(), 2U);
