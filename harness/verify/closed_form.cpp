@@ -109,12 +109,14 @@ void slab(CaseRun& run) {
                  slices + ", pre-integrated");
   }
   const Scene cube = homogeneous_cube(8, 1);
+  const auto source = run.prepare(cube, run.stepped(1), 32, 32);
   for (int axis = 0; axis < 3; ++axis)
     for (const double sign : {-1., 1.}) {
       glm::dvec3 direction(0);
       direction[axis] = sign;
       const View side = orthographic(direction, 1.4);
-      const Image image = run.draw(cube, run.stepped(1), side, 32, 32);
+      source->frame(side);
+      const Image image = source->read_back();
       run.add_picture(fmt::format("cube of optical depth 1 along {}{}", sign < 0 ? '-' : '+', "xyz"[axis]), image,
                       kBlendSource, [&](int x, int y, int) {
                         const bool hit = box_chord(pixel_ray(side, 32, 32, x, y), glm::dvec3(1)).length() > 0;
@@ -177,10 +179,12 @@ namespace {
 
 // A homogeneous cube cut by planes: the chord's closed form. Where a ray grazes an edge its chord may be that of a box
 // larger or smaller by place_error().
-void check_cut_cube(CaseRun& run, const std::string& name, const Scene& scene, const Values& values, const View& view,
+constexpr int kSize = 48;
+
+void check_cut_cube(CaseRun& run, const std::string& name, const Scene& scene, FrameSource& source, const View& view,
                     double step, double slack) {
-  constexpr int kSize = 48;
-  const Image image = run.draw(scene, values, view, kSize, kSize);
+  source.frame(view);
+  const Image image = source.read_back();
   const double tau = scene.transfer.points[0].extinction, moved = place_error(kSize);
   const auto chord = [&](const Ray& ray, double grow) {
     Chord out = box_chord(ray, glm::dvec3(1 + grow));
@@ -206,33 +210,36 @@ void check_cut_cube(CaseRun& run, const std::string& name, const Scene& scene, c
 
 void clip_planes(CaseRun& run) {
   Scene scene = homogeneous_cube(9, 1.5);
-  const View front = orthographic({0, 0, -1}, 1.4);
+  const View front = orthographic({0, 0, -1}, 1.4), slanted = perspective({2.1, 1.6, 2.9}, {0, 0, 0});
   const double step = 2. / 8;
+  const auto check = [&](const std::string& name, const View& view, const Settings& settings = {}, double slack = 0) {
+    const auto source = run.prepare(scene, run.stepped(1, settings), kSize, kSize);
+    check_cut_cube(run, name, scene, *source, view, step, slack);
+  };
   for (const double z0 : {0., 0.1, 0.37, 0.999, 1., 1.5}) {
     // Depth z0 of the two that the cube is deep, from the side of the eye.
     scene.effects.clip_planes = {{{0, 0, -1}, z0 - 1}};
-    check_cut_cube(run, fmt::format("depth {:g} of 2 cut away", z0), scene, run.stepped(1), front, step, 0);
+    check(fmt::format("depth {:g} of 2 cut away", z0), front);
     if (run.has("end_slabs", "full"))
-      check_cut_cube(run, fmt::format("depth {:g} of 2 cut away, whole slabs", z0), scene,
-                     run.stepped(1, {{"end_slabs", "full"}}), front, step, step);
+      check(fmt::format("depth {:g} of 2 cut away, whole slabs", z0), front, {{"end_slabs", "full"}}, step);
   }
-  const View slanted = perspective({2.1, 1.6, 2.9}, {0, 0, 0});
   scene.effects.clip_planes = {{glm::normalize(glm::dvec3(1, 0.3, 0.2)), -0.3},
                                {glm::normalize(glm::dvec3(-0.2, 1, -0.5)), -0.4}};
-  check_cut_cube(run, "two slanted planes, perspective", scene, run.stepped(1), slanted, step, 0);
+  check("two slanted planes, perspective", slanted);
   scene.effects.clip_planes = {{{1, 0, 0}, 0.1}};
-  check_cut_cube(run, "a plane along the rays", scene, run.stepped(1), front, step, 0);
+  check("a plane along the rays", front);
   scene.effects.clip_planes = {{{0, 1, 0}, 0}, {{0, -1, 0}, 0}};
-  check_cut_cube(run, "two planes that leave nothing", scene, run.stepped(1), front, step, 0);
+  check("two planes that leave nothing", front);
   scene.effects.clip_planes = {};
-  check_cut_cube(run, "no plane", scene, run.stepped(1), slanted, step, 0);
+  check("no plane", slanted);
 }
 
 void eye_and_ties(CaseRun& run) {
   const Scene scene = homogeneous_cube(9, 1.5);
   const double step = 2. / 8;
+  const auto source = run.prepare(scene, run.stepped(1), kSize, kSize);
   const auto check = [&](const std::string& name, const View& view) {
-    check_cut_cube(run, name, scene, run.stepped(1), view, step, 0);
+    check_cut_cube(run, name, scene, *source, view, step, 0);
   };
   // Slices lie at multiples of .25: the eye on one of them, and a view along it.
   check("the eye on a slice, looking along it", perspective({0.5, 0.1, 0.25}, {-0.5, 0.1, 0.25}));

@@ -39,9 +39,9 @@ double end_slabs_slack(const CaseRun& run, const View& view, const Ray& ray, int
 }
 
 // On a linear field the value at the middle of each segment is its mean: exact for any step.
-void check_ramp(CaseRun& run, int axis, const char* name, const View& view, double step) {
-  const Scene scene = scene_of(volume_of(RampField{axis, 0, 1}, glm::ivec3(9)), linear_transfer());
-  const Image image = run.draw(scene, run.stepped(step), view, kSize, kSize);
+void check_ramp(CaseRun& run, FrameSource& source, int axis, const char* name, const View& view, double step) {
+  source.frame(view);
+  const Image image = source.read_back();
   const double moved = place_error(kSize);
   run.add_picture(fmt::format("linear along {}, seen {}, step {:g}", "xyz"[axis], name, step), image,
                   "places through polygons of a pixel: pixels 2^-23 of the box; n blends round once each",
@@ -71,8 +71,11 @@ double reference_radius(const Scene& scene, const glm::dvec3& direction, double 
 
 void plane_field(CaseRun& run) {
   for (const double step : {4., 0.7}) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (const auto& [name, view] : kViews) check_ramp(run, axis, name, view, step);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Scene scene = scene_of(volume_of(RampField{axis, 0, 1}, glm::ivec3(9)), linear_transfer());
+      const auto source = run.prepare(scene, run.stepped(step), kSize, kSize);
+      for (const auto& [name, view] : kViews) check_ramp(run, *source, axis, name, view, step);
+    }
   }
 }
 
