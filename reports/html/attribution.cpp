@@ -33,18 +33,56 @@ size_t index_in(const std::vector<std::string>& names, const std::string& name) 
 
 std::string letter_of(size_t index) { return std::string(1, static_cast<char>('A' + index % 26)); }
 
-std::string cell_text(const Model& model, const CellKey& key) {
+std::string settings_text(const Model& model, const CellKey& key) {
   for (size_t i = 0; i < model.results.results.size(); ++i)
-    if (model.results.results[i].key == key)
-      return key.method + " on " + key.backend + (model.settings[i].empty() ? "" : ", " + model.settings[i]);
-  std::string params;  // a cell of no result: all that it says
-  for (const auto& [name, value] : key.params) params += ", " + name + " " + to_text(value);
-  return key.method + " on " + key.backend + params;
+    if (model.results.results[i].key == key) return model.settings[i];
+  std::string out;  // a cell of no result: all that it says
+  for (const auto& [name, value] : key.params) out += (out.empty() ? "" : ", ") + name + " " + to_text(value);
+  return out;
 }
 
-std::string bar_row(const Model& model, const Attribution& row, const std::vector<std::string>& aspects) {
+std::string cell_text(const Model& model, const CellKey& key) {
+  const std::string settings = settings_text(model, key);
+  return key.method + " on " + key.backend + (settings.empty() ? "" : ", " + settings);
+}
+
+// Backends that run the same arithmetic have the same errors: one bar says so for all of them.
+struct Bar {
+  const Attribution* row;
+  std::vector<std::string> backends;
+};
+
+bool same_but_backend(const Attribution& a, const Attribution& b) {
+  constexpr double kSame = .005;  // of the squared error, and of the error
+  if (a.key.method != b.key.method || a.key.params != b.key.params || a.key.variant != b.key.variant ||
+      a.parts.size() != b.parts.size() || a.note != b.note || !(std::abs(a.error - b.error) <= kSame * a.error) ||
+      !(std::abs(a.all_ideal - b.all_ideal) <= kSame * a.error))
+    return false;
+  return std::all_of(a.parts.begin(), a.parts.end(), [&](const AttributionPart& part) {
+    return std::any_of(b.parts.begin(), b.parts.end(), [&](const AttributionPart& other) {
+      return other.aspect == part.aspect && other.note == part.note &&
+             ((std::isnan(other.worth) && std::isnan(part.worth)) || std::abs(other.worth - part.worth) <= kSame);
+    });
+  });
+}
+
+std::vector<Bar> bars_of(const std::vector<const Attribution*>& rows) {
+  std::vector<Bar> out;
+  for (const Attribution* row : rows) {
+    const auto same =
+        std::find_if(out.begin(), out.end(), [&](const Bar& bar) { return same_but_backend(*bar.row, *row); });
+    if (same == out.end())
+      out.push_back({row, {row->key.backend}});
+    else
+      same->backends.push_back(row->key.backend);
+  }
+  return out;
+}
+
+std::string bar_row(const Model& model, const Bar& bar, const std::vector<std::string>& aspects) {
+  const Attribution& row = *bar.row;
   std::vector<Segment> segments;
-  std::string words;
+  std::string words, backends;
   for (const AttributionPart& part : row.parts) {
     if (!std::isfinite(part.worth)) continue;
     const size_t at = index_in(aspects, part.aspect);
@@ -52,12 +90,18 @@ std::string bar_row(const Model& model, const Attribution& row, const std::vecto
     if (std::abs(part.worth) >= .005)
       words += (words.empty() ? "" : ", ") + escape(part.aspect) + " " + percent(part.worth);
   }
+  for (const std::string& backend : bar.backends) backends += (backends.empty() ? "" : ", ") + backend;
   const double left = row.error > 0 ? row.all_ideal * row.all_ideal / (row.error * row.error) : 0;
-  return "<li><p><b>" + escape(cell_text(model, row.key)) + "</b> <span class=\"dim\">RMSE " + scientific(row.error) +
-         (row.seconds > 0 ? " in " + milliseconds(row.seconds) + " ms" : "") + "</span></p>" + stacked_bar(segments) +
-         "<p class=\"hint\">" + (words.empty() ? "nothing that can be made ideal is worth 0.5 %" : words) +
-         "; with all ideal " + scientific(row.all_ideal) + " is left, " + percent(left) + " of the squared error" +
-         (row.all_ideal <= row.bound ? " (at the reference's bound)" : "") + "</p></li>";
+  if (words.empty()) words = row.parts.empty() ? "no part of it can be made ideal" : "no part of it is worth 0.5 %";
+  std::string out = "<li><p><b>" + escape(row.key.method + " on " + backends) + "</b> " +
+                    escape(settings_text(model, row.key)) + " <span class=\"dim\">RMSE " + scientific(row.error);
+  if (bar.backends.size() == 1 && row.seconds > 0) out += " in " + milliseconds(row.seconds) + " ms";
+  out += "</span></p>" + (segments.empty() ? "" : stacked_bar(segments)) + "<p class=\"hint\">" + words;
+  // Not all of it can always be made ideal at once (memory): the note says so.
+  if (row.note.empty() && !row.parts.empty())
+    out += "; with all ideal " + scientific(row.all_ideal) + " is left, " + percent(left) + " of the squared error" +
+           (row.all_ideal <= row.bound ? " (at the reference's bound)" : "");
+  return out + (row.note.empty() ? "" : "; " + escape(row.note)) + "</p></li>";
 }
 
 std::string part_row(const Model& model, const Attribution& row, const AttributionPart& part, size_t aspect) {
@@ -83,8 +127,8 @@ std::string attribution_part(const Model& model, const Block& block) {
   std::string bars, table, legend, commands;
   for (size_t i = 0; i < aspects.size(); ++i)
     legend += "<li>" + swatch(i) + "<b>" + letter_of(i) + "</b> " + escape(aspects[i]) + "</li>";
+  for (const Bar& bar : bars_of(rows)) bars += bar_row(model, bar, aspects);
   for (const Attribution* row : rows) {
-    bars += bar_row(model, *row, aspects);
     for (const AttributionPart& part : row->parts) table += part_row(model, *row, part, index_in(aspects, part.aspect));
     if (!row->command.empty()) commands += "<li>" + command_box(row->command) + "</li>";
   }

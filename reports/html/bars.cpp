@@ -16,10 +16,11 @@ constexpr double kNarrow = 0.045;  // of the bar: too narrow for a letter
 
 std::string bar(double share, size_t pattern, const std::string& words) {
   const double width = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0;
-  return fmt::format(
-      "<span class=\"bar\"><span class=\"track\"><span class=\"fill p{}\" style=\"width:{:.2f}%\"></span></span>"
-      "<span class=\"words\">{}</span></span>",
-      pattern % kPatterns, 100 * width, words);
+  const std::string fill = width > 0 ? fmt::format("<span class=\"fill p{}\" style=\"width:{:.2f}%\"></span>",
+                                                   pattern % kPatterns, 100 * width)
+                                     : "";
+  return "<span class=\"bar\"><span class=\"track\">" + fill + "</span><span class=\"words\">" + words +
+         "</span></span>";
 }
 
 std::string bound_bar(double share) {

@@ -38,8 +38,8 @@ std::string bars_of(const std::vector<const EffectRow*>& rows) {
   std::string out;
   for (const EffectRow* row : rows) {
     out += "<li><p><b>" + escape(row->effect) + "</b> " + escape(row->key.method) + " on " + escape(row->key.backend) +
-           " <span class=\"dim\">" + change_text(*row) + "</span></p>" + bar(time(row->with), 0, interval(row->with)) +
-           bar(time(row->without), 1, interval(row->without));
+           " <span class=\"dim change\">" + change_text(*row) + "</span></p>" +
+           bar(time(row->with), 0, interval(row->with)) + bar(time(row->without), 1, interval(row->without));
     if (row->instructions_with > 0 || row->instructions_without > 0)
       out += bar(text(row->instructions_with), 0, fmt::format("{} instructions", row->instructions_with)) +
              bar(text(row->instructions_without), 1, fmt::format("{} instructions", row->instructions_without));
@@ -118,7 +118,8 @@ std::string effects_section(const Model& model, const PictureBook& book) {
       "<p class=\"hint\">The scene as it is against the scene without the effect. The program that runs is compiled "
       "without what a scene does not call for; instructions are those of the optimised SPIR-V of all stages, the same "
       "on "
-      "every backend. Within noise: the 95 % intervals of the two medians touch.</p><div class=\"cards\">";
+      "every backend (cpu runs twins of it, in C++). Within noise: the 95 % intervals of the two medians "
+      "touch.</p><div class=\"cards\">";
   const std::vector<const EffectRow*> once = one_row_an_effect(model.results);
   for (const std::string& scene : scenes_of(model.results)) {
     std::vector<const EffectRow*> rows;

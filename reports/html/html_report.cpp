@@ -24,6 +24,19 @@ void drop_samples(Json& node) {
     for (Json& child : node) drop_samples(child);
 }
 
+// Of each view the scripts show a few metrics only; the rest is in the worst of the cell, or in results.json.
+void drop_view_errors(Json& cells) {
+  for (Json& cell : cells)
+    for (Json& view : cell["views"]) {
+      if (!view.contains("error")) continue;
+      Json kept = Json::object();
+      for (const char* name : {"rmse", "max", "max_x", "max_y", "flip_p99", "ssim"})
+        if (view["error"].contains(name)) kept[name] = view["error"][name];
+      view["error"] = std::move(kept);
+      view.erase("counters");
+    }
+}
+
 std::string script_json(const Json& json) {
   return json_for_script(json.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
@@ -32,6 +45,7 @@ std::string results_json(const Results& results) {
   Json json;  // what is a table already is not needed a second time
   json["results"] = to_json(results)["results"];
   drop_samples(json["results"]);
+  drop_view_errors(json["results"]);
   return script_json(json);
 }
 
@@ -85,12 +99,17 @@ std::string picture_note(const PictureBook& book) {
   return out;
 }
 
+// Of one experiment its title; of several their names.
 std::string page_title(const Results& results) {
+  const std::string cases = results.hard_cases.empty() ? "" : "hard cases";
+  if (results.experiments.size() == 1) {
+    const ExperimentResultInfo& only = results.experiments.front();
+    return only.title.empty() ? only.name : only.title;
+  }
   std::string out;
-  for (const ExperimentResultInfo& experiment : results.experiments)
-    out += (out.empty() ? "" : ", ") + (experiment.title.empty() ? experiment.name : experiment.title);
-  if (out.empty()) return results.hard_cases.empty() ? "Results" : "Hard cases";
-  return out;
+  for (const ExperimentResultInfo& experiment : results.experiments) out += (out.empty() ? "" : ", ") + experiment.name;
+  if (out.empty()) return cases.empty() ? "Results" : "Hard cases";
+  return out + (cases.empty() ? "" : ", " + cases);
 }
 
 // Replaces each {{name}} of the template once; what is put in is not searched again.

@@ -108,14 +108,13 @@ std::string plot_point(const PlotAxes& axes, const Row& row, const PlotPoint& po
                            marker(row));
 }
 
-std::string legend_entry(const Model& model, const Block& block, const Row& row) {
-  const std::string style = series_classes(row), letter = block.letter(row);
+std::string legend_entry(const Row& row, const std::string& name, const std::string& letter, bool line) {
+  const std::string style = series_classes(row);
   return fmt::format(
-             "<li><svg width=\"44\" height=\"14\" aria-hidden=\"true\"><polyline class=\"front {}\" points=\"1,7 "
-             "43,7\"/><g class=\"point {}\" transform=\"translate(22 7)\">{}</g></svg>",
-             style, style, marker(row)) +
-         (letter.empty() ? "" : "<b>" + letter + "</b> ") + escape(model.name(block, row)) +
-         (row.ranked ? "" : " <span class=\"badge\">not ranked</span>") + "</li>";
+      "<li><svg width=\"44\" height=\"14\" aria-hidden=\"true\">{}<g class=\"point {}\" "
+      "transform=\"translate(22 7)\">{}</g></svg>{}{}</li>",
+      line ? "<polyline class=\"front " + style + "\" points=\"1,7 43,7\"/>" : "", style, marker(row),
+      letter.empty() ? "" : "<b>" + letter + "</b> ", escape(name));
 }
 
 }  // namespace volumark::html

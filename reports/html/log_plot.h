@@ -49,7 +49,7 @@ struct PlotPoint {
 };
 std::string plot_point(const PlotAxes& axes, const Row& row, const PlotPoint& point);
 
-// <li> of a legend: line and marker of a row, and its name.
-std::string legend_entry(const Model& model, const Block& block, const Row& row);
+// <li> of a legend: marker of a row, with its line if wanted, and what it stands for.
+std::string legend_entry(const Row& row, const std::string& name, const std::string& letter, bool line);
 
 }  // namespace volumark::html

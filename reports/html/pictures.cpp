@@ -89,18 +89,23 @@ std::vector<size_t> by_importance(const Model& model) {
 }
 
 void read_hard_cases(const Results& results, Reader& reader) {
-  constexpr size_t kFailuresEach = 6;  // of one case: the same defect shows in many rows
+  constexpr size_t kFailuresEach = 4;  // of one case: the same defect shows in many rows
   for (const HardCaseGroup& group : group_cases(results.hard_cases)) {
-    size_t shown = 0;
+    std::vector<const HardCaseRow*> shown;
     for (const HardCaseRow* row : group.rows) {
       if (!row->picture && !row->difference) continue;
-      if (shown > 0 && (row->outcome != "fail" || shown >= kFailuresEach)) continue;
+      if (!shown.empty() && (row->outcome != "fail" || shown.size() >= kFailuresEach)) continue;
+      if (std::any_of(shown.begin(), shown.end(), [&](const HardCaseRow* other) {
+            return other->method == row->method && other->check == row->check && other->x == row->x &&
+                   other->y == row->y;
+          }))
+        continue;  // the same on another backend
       std::string note;
       const std::pair pictures(reader.take(row->picture, "picture", note),
                                reader.take(row->difference, "difference", note));
       if (pictures.first < 0 && pictures.second < 0) continue;
       reader.book.hard_cases[static_cast<size_t>(row - results.hard_cases.data())] = pictures;
-      ++shown;
+      shown.push_back(row);
     }
   }
 }

@@ -21,8 +21,8 @@ struct PictureEntry {
 struct PictureBook {
   std::vector<std::string> base64;    // PNG files
   std::vector<PictureEntry> entries;  // by cell, then view
-  // Index into Results::hard_cases -> picture and difference (into base64, -1: not there): all that fail, and the worst
-  // row of each case that has pictures.
+  // Index into Results::hard_cases -> picture and difference (into base64, -1: not there): the worst row of each
+  // case that has pictures, and a few more that fail elsewhere.
   std::map<size_t, std::pair<int, int>> hard_cases;
   size_t left_out = 0;  // pictures that the size limit kept out
   size_t missing = 0;   // pictures that could not be read

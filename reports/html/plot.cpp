@@ -146,9 +146,28 @@ std::string cost_plot(const Model& model, const Block& block, const PlotMetric& 
 }
 
 std::string plot_legend(const Model& model, const Block& block) {
-  std::string out = "<ul class=\"legend\" aria-label=\"Legend\">";
+  constexpr size_t kEach = 8;  // more lines than these are told by their parts: backend, method, setting
+  std::vector<const Row*> rows;
   for (const Row& row : block.rows)
-    if (!model.points(row, "rmse").empty()) out += legend_entry(model, block, row);
+    if (!model.points(row, "rmse").empty()) rows.push_back(&row);
+  std::string out = "<ul class=\"legend\" aria-label=\"Legend\">";
+  if (rows.size() <= kEach) {
+    for (const Row* row : rows) out += legend_entry(*row, model.name(block, *row), block.letter(*row), true);
+  } else {
+    std::vector<std::string> known;
+    auto once = [&](const std::string& name) {
+      const bool first = std::find(known.begin(), known.end(), name) == known.end();
+      if (first) known.push_back(name);
+      return first;
+    };
+    for (const Row* row : rows)
+      if (once("backend " + row->backend)) out += legend_entry(*row, row->backend, "", false);
+    for (const Row* row : rows)
+      if (once("method " + row->method)) out += legend_entry(*row, row->method, "", true);
+    for (const Row* row : rows)
+      if (!block.letter(*row).empty() && once("setting " + row->setting))
+        out += "<li><b>" + block.letter(*row) + "</b> " + escape(row->setting) + "</li>";
+  }
   return out +
          "<li><svg width=\"44\" height=\"14\" aria-hidden=\"true\"><polyline class=\"overall\" points=\"2,7 42,7\"/>"
          "</svg>front over all</li></ul>";

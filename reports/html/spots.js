@@ -51,12 +51,12 @@ vm.startSpots = () => {
   }, { rootMargin: '300px' });
   for (const figure of all) observer.observe(figure);
 
-  // What is folded is printed too; afterwards it is as it was. A failing case is open anyway; those that hold stay a
-  // line each.
+  // What is folded is printed too; afterwards it is as it was. A failing case is open anyway; cases and checks that hold
+  // stay folded, or they would be most of the paper.
   let opened = [];
   addEventListener('beforeprint', () => {
     all.forEach(fill);
-    opened = [...document.querySelectorAll('details.fold:not(.case):not([open])')];
+    opened = [...document.querySelectorAll('details.fold:not([open])')].filter((fold) => !fold.closest('.case'));
     for (const fold of opened) fold.open = true;
   });
   addEventListener('afterprint', () => {

@@ -51,7 +51,7 @@ std::string spot(const Model& model, const PictureBook& book, const HardCaseRow&
   return fmt::format(
       "<figure class=\"spots\" data-picture=\"{}\" data-difference=\"{}\" data-x=\"{}\" data-y=\"{}\"><figcaption>"
       "{}{}</figcaption></figure>",
-      picture, difference, row.x, row.y, escape(place_of(row)), at);
+      picture, difference, row.x, row.y, escape(place_of(row) + (row.check.empty() ? "" : ": " + row.check)), at);
 }
 
 bool is_bad(const HardCaseRow& row) { return row.outcome != "pass" && row.outcome != "not_applicable"; }

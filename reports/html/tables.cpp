@@ -141,7 +141,10 @@ std::string cells_table(const Model& model) {
         "</tr>",
         escape(result.command), escape(result.command));
   }
-  return "<div class=\"scroll\" tabindex=\"0\" role=\"group\" aria-label=\"All cells\"><table class=\"wide sortable\" "
+  constexpr size_t kScrolled = 80;  // more rows than these scroll in a frame of their own
+  const std::string tall = model.results.results.size() > kScrolled ? " tall" : "";
+  return "<div class=\"scroll" + tall +
+         "\" tabindex=\"0\" role=\"group\" aria-label=\"All cells\"><table class=\"wide sortable\" "
          "id=\"cell-table\">" +
          head({{"#", true},
                {"scene", false},
