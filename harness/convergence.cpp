@@ -7,6 +7,7 @@
 
 #include "harness/run_folder.h"
 #include "harness/statistics.h"
+#include "methods/method.h"
 
 namespace volumark {
 namespace {
@@ -40,10 +41,21 @@ bool order_expected(const std::vector<Experiment>& experiments, const CellKey& k
   return false;
 }
 
-// Coarse first: the error of the first and last value say which way the axis runs where the step itself does not.
-void sort_cells(std::vector<Result*>& cells) {
-  std::sort(cells.begin(), cells.end(),
-            [](const Result* a, const Result* b) { return a->quality->value > b->quality->value; });
+// Whether larger values are finer ones (slices in percent) and not coarser ones (a step): what the method's sweep says.
+bool finer_upwards(const CellKey& key, const std::string& parameter) {
+  for (const Method* method : method_list()) {
+    if (method->info().name != key.method) continue;
+    for (const ParameterInfo& info : method->info().parameters)
+      if (info.name == parameter && info.sweep.size() > 1) return info.sweep.front() < info.sweep.back();
+  }
+  return false;
+}
+
+// Coarse first.
+void sort_cells(std::vector<Result*>& cells, bool upwards) {
+  std::sort(cells.begin(), cells.end(), [&](const Result* a, const Result* b) {
+    return upwards ? a->quality->value < b->quality->value : a->quality->value > b->quality->value;
+  });
 }
 
 void judge(Convergence& row, const OrderFit& fit, bool expected_here, double bound) {
@@ -69,19 +81,21 @@ void judge(Convergence& row, const OrderFit& fit, bool expected_here, double bou
   }
 }
 
-Convergence converge(const Series& series, bool expected_here) {
+Convergence converge(const Series& series, bool upwards, bool expected_here) {
   Convergence row;
   row.key = series.key;
   row.parameter = series.cells.front()->quality->parameter;
   row.expected = series.cells.front()->order.expected;
   double bound = 0;
+  std::vector<double> steps;
   for (const Result* cell : series.cells) {
     row.values.push_back(cell->quality->value);
+    steps.push_back(upwards ? 1 / cell->quality->value : cell->quality->value);
     row.errors.push_back(cell->error->worst.rmse);
     for (const ViewResult& view : cell->views)
       if (view.reference) bound = std::max(bound, view.reference->bound);
   }
-  const OrderFit fit = fit_order(row.values, row.errors, bound);
+  const OrderFit fit = fit_order(steps, row.errors, bound);
   row.fitted_points = fit.points;
   row.fitted = fit.order;
   row.fitted_lo = fit.lo;
@@ -101,8 +115,9 @@ void fit_convergence(Results& results, const std::vector<Experiment>& experiment
   results.convergence.clear();
   for (Series& series : series_of(results)) {
     if (series.cells.size() < 2) continue;
-    sort_cells(series.cells);
-    Convergence row = converge(series, order_expected(experiments, series.key));
+    const bool upwards = finer_upwards(series.key, series.cells.front()->quality->parameter);
+    sort_cells(series.cells, upwards);
+    Convergence row = converge(series, upwards, order_expected(experiments, series.key));
     for (Result* cell : series.cells) {
       cell->order.fitted.reset();
       if (row.fitted_points > 0) cell->order.fitted = row.fitted;

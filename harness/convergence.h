@@ -1,4 +1,5 @@
-// Orders of convergence from finished cells: error (RMSE, worst view) along each series' quality axis.
+// Orders of convergence from finished cells: error (RMSE, worst view) along each series' quality axis: in its
+// values, or in 1 / value where the method's sweep rises (slices in percent).
 #pragma once
 
 #include "harness/experiment.h"

@@ -46,6 +46,22 @@ TEST(Convergence, TheExpectedOrderPassesAnotherFails) {
   EXPECT_EQ(bad.convergence[0].verdict, "fail");
 }
 
+TEST(Convergence, AxesThatCountSlicesRunUpwards) {
+  Results results;
+  for (const double percent : {400., 100., 800., 200.}) {
+    Result result = cell("smooth", percent, 100 / (percent * percent), 2);
+    result.key.method = "slices2d";
+    result.key.params = {{"slices", percent}};
+    result.quality = Quality{"slices", percent};
+    results.results.push_back(result);
+  }
+  fit_convergence(results, expecting("smooth"));
+  ASSERT_EQ(results.convergence.size(), 1U);
+  EXPECT_EQ(results.convergence[0].values, (std::vector<double>{100, 200, 400, 800})) << "coarse first";
+  EXPECT_NEAR(results.convergence[0].fitted, 2, 1e-9) << "in the distance of the slices";
+  EXPECT_EQ(results.convergence[0].verdict, "pass");
+}
+
 TEST(Convergence, NoVerdictWhereNoneIsPromised) {
   Results rough = series("rough", 1, 2);
   fit_convergence(rough, expecting("smooth"));
