@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kWorthNaming = 0.05;  // share of the squared error
+// RMSE of pictures in [0, 1] that rounding of floats alone explains; smaller steps then only add roundings.
+constexpr double kRounding = 8 * static_cast<double>(std::numeric_limits<float>::epsilon());
 constexpr int kSamples = 3;
 constexpr double kSampleBudget = 0.15;  // seconds; one sample at least
 
@@ -79,6 +81,10 @@ Attribution Attributor::run() {
   out.all_ideal = out.error;
   if (out.error <= out.bound) {
     out.note = "the error is below the reference's bound: nothing can be told apart there";
+    return out;
+  }
+  if (out.error <= kRounding) {
+    out.note = "the error is rounding of single precision: nothing can be told apart there";
     return out;
   }
   Values all = planned_.group->values;
@@ -236,6 +242,7 @@ const Attribution* attribution_of(const Results& results, const CellKey& key) {
 
 std::string floor_text(const Attribution& entry) {
   if (entry.error <= entry.bound) return "at the reference's bound";
+  if (entry.error <= kRounding) return "rounding of single precision";
   std::vector<std::string> causes;
   for (const AttributionPart& part : entry.parts)
     if (part.worth >= kWorthNaming)

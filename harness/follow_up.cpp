@@ -38,7 +38,7 @@ void FollowUp::attribute_cells(const SceneContext& context, const CellOptions& o
   for (const PlannedCell& planned : cells_to_attribute(groups_, results_)) {
     const Instant start = now();
     Attribution entry = attribute(planned, context, options, results_);
-    const std::string first = entry.parts.empty() ? "nothing to make ideal"
+    const std::string first = entry.parts.empty() ? entry.note
                                                   : fmt::format("{} is worth {:.0f} %", entry.parts.front().aspect,
                                                                 100 * entry.parts[0].worth);
     progress.line(fmt::format("attribution {} {} {}: rmse {:.2e}, {} ({})", entry.key.scene, entry.key.method,

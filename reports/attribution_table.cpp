@@ -55,7 +55,7 @@ std::string largest_parts(const Attribution& entry) {
     out += fmt::format("{}{} {:.0f} %", out.empty() ? "" : ", ", part.aspect, 100 * part.worth);
   }
   if (!out.empty()) return out;
-  return entry.error <= entry.bound ? "at the reference's bound" : "the method's own";
+  return entry.parts.empty() && !entry.note.empty() ? "-" : "the method's own";  // the note says why not
 }
 
 std::string summary_table(const Results& results) {

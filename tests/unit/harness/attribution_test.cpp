@@ -148,6 +148,21 @@ TEST_F(AttributionTest, APartThatFailsIsANote) {
   EXPECT_NE(entry.note.find("timeout"), std::string::npos);
 }
 
+TEST_F(AttributionTest, RoundingOfFloatsIsNotTakenApart) {
+  Json json = experiment(Json::array({{{"method", "raycast"}}}));
+  json["attribute"] = true;
+  Json slab = scene();  // homogeneous: exact at any step
+  slab["volume"] = {{"generator", {{"kind", "constant"}, {"size", 4}, {"type", "f32"}, {"value", 1}}}};
+  slab["transfer"]["points"] = Json::array({{{"value", 1}, {"colour", {1, 0.5, 0.2}}, {"extinction", 1}}});
+  const RunOutcome outcome = run(json, slab);
+  ASSERT_EQ(outcome.results.attribution.size(), 1U);
+  const Attribution& entry = outcome.results.attribution[0];
+  EXPECT_LT(entry.error, 1e-6);
+  EXPECT_TRUE(entry.parts.empty());
+  EXPECT_EQ(entry.all_ideal, entry.error);
+  EXPECT_FALSE(entry.note.empty());
+}
+
 // ---- Floors ----
 
 class FloorTest : public testing::Test {
@@ -202,6 +217,11 @@ TEST_F(FloorTest, BothAreNamedWhereBothMatter) {
 TEST_F(FloorTest, AtTheBound) {
   results_.attribution[0].error = 1e-8;
   EXPECT_EQ(reason(1e-8), "at the reference's bound");
+}
+
+TEST_F(FloorTest, RoundingHasNoParts) {
+  results_.attribution[0].error = 2e-7;
+  EXPECT_EQ(reason(2e-7), "rounding of single precision");
 }
 
 TEST_F(FloorTest, WithoutAttributionItIsNotKnown) {
