@@ -77,17 +77,6 @@ double number_of(const Value& value) {
   return real == nullptr ? 0 : *real;
 }
 
-// Shell quoting where a word needs it.
-std::string quoted(const std::string& word) {
-  if (!word.empty() &&
-      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,") ==
-          std::string::npos)
-    return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 // Parameters in which the cells of one method differ.
 std::set<std::string> telling_apart(const Experiment& experiment, const std::string& method) {
   std::map<std::string, std::set<std::string>> seen;
@@ -106,18 +95,18 @@ std::set<std::string> telling_apart(const Experiment& experiment, const std::str
 std::string command_of(const Experiment& experiment, const CellKey& key, const std::set<std::string>& telling,
                        const std::vector<Sweep>& sweeps) {
   const bool shipped = std::filesystem::path(experiment.path).parent_path() == experiment_directory();
-  std::string out =
-      fmt::format("volumark run {} --scene {} --method {} --backend {}",
-                  quoted(shipped ? experiment.name : experiment.path), quoted(key.scene), key.method, key.backend);
+  std::string out = fmt::format("volumark run {} --scene {} --method {} --backend {}",
+                                shell_quoted(shipped ? experiment.name : experiment.path), shell_quoted(key.scene),
+                                key.method, key.backend);
   const auto is_swept = [&](const std::string& name) {
     return std::any_of(sweeps.begin(), sweeps.end(), [&](const Sweep& sweep) { return sweep.parameter == name; });
   };
   for (const auto& [name, value] : key.params)
-    if (is_swept(name)) out += " --sweep " + quoted(name + "=" + to_string(value));
+    if (is_swept(name)) out += " --sweep " + shell_quoted(name + "=" + to_string(value));
   // Beyond that, only what tells this cell from the others of its method.
   for (const auto& [name, value] : key.params)
-    if (telling.contains(name) && !is_swept(name)) out += " --only " + quoted(name + "=" + to_string(value));
-  if (experiment.effects) out += " --variant " + quoted(variant_word(key.variant));
+    if (telling.contains(name) && !is_swept(name)) out += " --only " + shell_quoted(name + "=" + to_string(value));
+  if (experiment.effects) out += " --variant " + shell_quoted(variant_word(key.variant));
   // A folder of its own: the results that name this command stay.
   return out + " --overwrite --out out/again";
 }
@@ -206,6 +195,16 @@ void check_unique(const std::vector<Group>& groups) {
 }
 
 }  // namespace
+
+std::string shell_quoted(const std::string& word) {
+  if (!word.empty() &&
+      word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=+:,") ==
+          std::string::npos)
+    return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
 
 std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter,
                               const std::vector<Sweep>& sweeps) {

@@ -43,4 +43,7 @@ struct CellFilter {
 std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter,
                               const std::vector<Sweep>& sweeps = {});
 
+// A word of a command line, in quotes where a shell needs them.
+std::string shell_quoted(const std::string& word);
+
 }  // namespace volumark

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <numeric>
 #include <random>
 #include <set>
@@ -13,6 +12,8 @@
 #include <thread>
 #include <utility>
 
+#include "harness/backend_parity.h"
+#include "harness/bad_news.h"
 #include "harness/convergence.h"
 #include "harness/effect_rows.h"
 #include "harness/environment.h"
@@ -20,6 +21,7 @@
 #include "harness/follow_up.h"
 #include "harness/metrics/metrics.h"
 #include "harness/progress.h"
+#include "harness/resume.h"
 #include "harness/run_folder.h"
 #include "harness/scene_context.h"
 #include "scenes/sha256.h"
@@ -51,17 +53,6 @@ Result* find(Results& results, const CellKey& key) {
 
 constexpr uint64_t kSeed = 1;  // of the order
 
-// Of the command line, what figures depend on.
-std::map<std::string, std::string> deciding_options(const RunOptions& options) {
-  const DeviceOptions& device = options.cell.device;
-  return {{"threads", std::to_string(device.threads)},
-          {"gl_platform", device.gl_platform},
-          {"vk_device", device.vk_device},
-          {"validation", device.validation ? "on" : "off"},
-          {"references", options.references ? "on" : "off"},
-          {"ignore_effects", options.ignore_effects ? "on" : "off"}};
-}
-
 // What decides where a cell is drawn, as words of the command line, each with a space before it.
 std::string global_options(const DeviceOptions& device) {
   std::string out;
@@ -76,11 +67,6 @@ bool fit_together(const SceneContext& context, size_t cells) {
   if (cells < 2 || !context.scene.volume) return true;
   const auto texels = static_cast<double>(context.scene.volume->voxels.size());
   return 4 * texels * static_cast<double>(cells) < 0.25 * static_cast<double>(machine_info().ram_bytes);
-}
-
-// Targets with few bits round at every blend, each driver in its own way: no limit between backends holds there.
-bool compares_backends(const Group& group) {
-  return group.experiment->parity > 0 && group.method->target_format(group.values) == Format::RGBA32F;
 }
 
 class Runner {
@@ -113,7 +99,6 @@ class Runner {
 
  private:
   std::optional<Results> earlier_results() const;
-  std::string differences(const Results& earlier) const;
   void start();
   void describe();
   void run_scene(size_t begin, size_t end, Progress& progress);
@@ -123,14 +108,13 @@ class Runner {
   void keep(Result result, const Group& group, const Cell& cell, Progress& progress);
   bool done_before(const Cell& cell, const Group& group, const SceneContext& context);
   Result died(const Group& group, const Cell& cell, const SceneContext& context) const;
-  void compare_backends(const Group& group, const SceneContext& context, const std::string& variant,
-                        const std::vector<std::map<int, Image>>& all, Progress& progress);
+  void compare_backends(const Group& group, const std::string& variant, const std::vector<std::map<int, Image>>& images,
+                        Progress& progress);
   void compare_variants(const Group& group, const SceneContext& context,
                         const std::vector<std::map<int, Image>>& images);
   SceneContext scene_context(size_t begin, size_t end);
   void note_backend(const BackendInfo& info);
   void sort_results();
-  void collect_bad_news();
 
   const RunOptions& options_;
   ReferenceCache cache_;
@@ -142,42 +126,6 @@ class Runner {
   FollowUp* follow_up_ = nullptr;  // of the scene that is being run
   RunOutcome out_;
 };
-
-// What figures depend on beyond the cells themselves, where it is not what it was: "commit abc, now def; ...".
-std::string Runner::differences(const Results& earlier) const {
-  std::vector<std::string> out;
-  const auto compare = [&](const std::string& what, const std::string& was, const std::string& is) {
-    if (was != is)
-      out.push_back(fmt::format("{}: {}, now {}", what, was.empty() ? "none" : was, is.empty() ? "none" : is));
-  };
-  const GitInfo git = git_info();
-  const BuildInfo build = build_info();
-  const MachineInfo machine = machine_info();
-  compare("commit", earlier.git.sha, git.sha);
-  compare("local changes", earlier.git.dirty ? "yes" : "no", git.dirty ? "yes" : "no");
-  compare("build type", earlier.build.type, build.type);
-  compare("compiler", earlier.build.compiler + " " + earlier.build.version, build.compiler + " " + build.version);
-  compare("compiler flags", earlier.build.flags, build.flags);
-  compare("processor", earlier.machine.cpu, machine.cpu);
-  compare("cores", std::to_string(earlier.machine.cores), std::to_string(machine.cores));
-  const auto compare_all = [&](const std::map<std::string, std::string>& was,
-                               const std::map<std::string, std::string>& is) {
-    const auto value = [](const auto& map, const std::string& name) {
-      const auto found = map.find(name);
-      return found == map.end() ? std::string() : found->second;
-    };
-    std::set<std::string> names;
-    for (const auto& [name, unused] : was) names.insert(name);
-    for (const auto& [name, unused] : is) names.insert(name);
-    for (const std::string& name : names) compare(name, value(was, name), value(is, name));
-  };
-  compare_all(earlier.machine.env, machine.env);
-  compare_all(earlier.run.device, deciding_options(options_));
-  std::vector<std::string> sweeps;
-  for (const Sweep& sweep : options_.sweeps) sweeps.push_back(to_string(sweep));
-  compare("--sweep", fmt::format("{}", fmt::join(earlier.run.sweeps, " ")), fmt::format("{}", fmt::join(sweeps, " ")));
-  return fmt::format("{}", fmt::join(out, "; "));
-}
 
 // A results.json that cannot be read stands in the way of everything but --overwrite.
 std::optional<Results> Runner::earlier_results() const {
@@ -201,7 +149,7 @@ void Runner::start() {
                                   finished ? "choose another folder with --out" : "go on with --resume"));
   }
   if (earlier && options_.resume) {
-    if (const std::string differs = differences(*earlier); !differs.empty())
+    if (const std::string differs = resume_differences(*earlier, options_); !differs.empty())
       throw FolderError(
           fmt::format("{}: its run cannot be gone on with, since figures depend on what differs: {}; choose another "
                       "folder with --out, or replace the run with --overwrite",
@@ -366,7 +314,7 @@ void Runner::run_group(const Group& group, const SceneContext& context, Progress
   if (compares_backends(group)) {
     std::set<std::string> variants;
     for (const Cell& cell : group.cells) variants.insert(cell.key.variant);
-    for (const std::string& variant : variants) compare_backends(group, context, variant, images, progress);
+    for (const std::string& variant : variants) compare_backends(group, variant, images, progress);
   }
   if (group.experiment->effects) compare_variants(group, context, images);
 }
@@ -387,43 +335,20 @@ void Runner::compare_variants(const Group& group, const SceneContext& context,
     }
 }
 
-// Every backend with the first that drew the variant: a difference between two others shows there too.
-void Runner::compare_backends(const Group& group, const SceneContext& context, const std::string& variant,
-                              const std::vector<std::map<int, Image>>& all, Progress& progress) {
-  const std::map<int, Image> none;
-  std::vector<std::reference_wrapper<const std::map<int, Image>>> images;
-  for (size_t i = 0; i < all.size(); ++i)
-    images.push_back(group.cells[i].key.variant == variant ? std::cref(all[i]) : std::cref(none));
-  const auto first = std::find_if(images.begin(), images.end(), [](const auto& views) { return !views.get().empty(); });
-  if (first == images.end()) return;
-  const CellKey& key = group.cells[static_cast<size_t>(first - images.begin())].key;
-  std::erase_if(out_.results.parity, [&](const ParityRow& row) { return row.key == key; });
-  ParityLimits limits;
-  limits.difference = group.experiment->parity;
-  for (auto other = first + 1; other != images.end(); ++other)
-    for (const int view : context.views) {
-      if (!first->get().contains(view) || !other->get().contains(view)) continue;
-      const Parity found = parity(first->get().at(view), other->get().at(view), limits);
-      ParityRow row;
-      row.key = key;
-      row.other = group.cells[static_cast<size_t>(other - images.begin())].backend;
-      row.view = view;
-      row.interior_pixels = found.interior_pixels;
-      row.interior_over = found.interior_over;
-      row.interior_max = found.interior_max;
-      row.silhouette_pixels = found.silhouette_pixels;
-      row.silhouette_over = found.silhouette_over;
-      row.silhouette_max = found.silhouette_max;
-      row.limit = limits.difference;
-      row.ok = found.agree;
-      if (!row.ok)
-        progress.line(
-            fmt::format("      {} and {} differ by {:.2e} in {} interior pixels, and above the limit in {} of {} "
-                        "at silhouettes (view {}, limit {:g})",
-                        key.backend, row.other, row.interior_max, row.interior_over, row.silhouette_over,
-                        row.silhouette_pixels, view, row.limit));
-      out_.results.parity.push_back(std::move(row));
-    }
+void Runner::compare_backends(const Group& group, const std::string& variant,
+                              const std::vector<std::map<int, Image>>& images, Progress& progress) {
+  for (ParityRow& row : backend_parity(group, variant, images)) {
+    std::erase_if(out_.results.parity, [&](const ParityRow& old) {
+      return old.key == row.key && old.other == row.other && old.view == row.view;
+    });
+    if (!row.ok)
+      progress.line(
+          fmt::format("      {} and {} differ by {:.2e} in {} interior pixels, and above the limit in {} of {} at "
+                      "silhouettes (view {}, limit {:g})",
+                      row.key.backend, row.other, row.interior_max, row.interior_over, row.silhouette_over,
+                      row.silhouette_pixels, row.view, row.limit));
+    out_.results.parity.push_back(std::move(row));
+  }
 }
 
 // The scene of these groups, in every variant that their cells ask for.
@@ -487,26 +412,14 @@ void Runner::sort_results() {
   }
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   for (size_t i = 0; i < sorted.size(); ++i) out_.results.results[i] = std::move(sorted[i].second);
-}
-
-void Runner::collect_bad_news() {
-  const Results& results = out_.results;
-  for (const Result& result : results.results)
-    if (result.outcome != Outcome::Ok && result.outcome != Outcome::Unsupported)
-      out_.bad_news.push_back(fmt::format("{}: {}: {}", to_string(result.outcome), result.command, result.reason));
-  for (const ParityRow& row : results.parity)
-    if (!row.ok)
-      out_.bad_news.push_back(fmt::format(
-          "parity: {} {} view {}: {} and {} differ by {:.2e} in {} interior pixels, limit {:g}", row.key.scene,
-          row.key.method, row.view, row.key.backend, row.other, row.interior_max, row.interior_over, row.limit));
-  for (const Convergence& row : results.convergence)
-    if (is_bad_news(row))
-      out_.bad_news.push_back(fmt::format("convergence {}: {} {} {}: {}", row.verdict, row.key.scene, row.key.method,
-                                          row.key.backend, row.reason));
-  for (const SelfTestRow& row : results.self_test)
-    if (!row.ok)
-      out_.bad_news.push_back(
-          fmt::format("metric self test: {}: expected {}, measured {}", row.name, row.expected, row.measured));
+  std::stable_sort(out_.results.effects.begin(), out_.results.effects.end(),
+                   [&](const EffectRow& a, const EffectRow& b) {
+                     const auto at = [&](const EffectRow& row) {
+                       const auto found = place.find(key_text(row.key));
+                       return found == place.end() ? place.size() : found->second;
+                     };
+                     return at(a) < at(b);
+                   });
 }
 
 RunOutcome Runner::run() {
@@ -537,7 +450,7 @@ RunOutcome Runner::run() {
   if (!out_.interrupted) out_.results.run.finished_at = utc_now();
   out_.results.machine.load_after = load_average();
   folder_.save(out_.results, true);
-  collect_bad_news();
+  out_.bad_news = bad_news_of(out_.results);
   return std::move(out_);
 }
 

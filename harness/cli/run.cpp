@@ -6,6 +6,7 @@
 #include "harness/cli/commands.h"
 #include "harness/effect_variants.h"
 #include "harness/paths.h"
+#include "harness/resume.h"
 #include "harness/run_folder.h"
 #include "harness/runner.h"
 #include "harness/verify/verify.h"
@@ -72,8 +73,7 @@ int run(const RunArguments& arguments, const Globals& globals) {
   for (const std::string& line : outcome.bad_news) fmt::print("{}\n", line);
   fmt::print("{}\n", (options.out / "results.json").string());
   if (outcome.interrupted) {
-    fmt::print("interrupted; go on with: volumark run {} --out {} --resume\n", fmt::join(options.experiments, " "),
-               options.out.string());
+    fmt::print("interrupted; go on with: {}\n", resume_command(options.argv));
     return kInterrupted;
   }
   return outcome.bad_news.empty() ? kOk : kBadNews;
