@@ -10,8 +10,12 @@
 namespace volumark {
 namespace {
 
-// NaN becomes 0.
-uint8_t level_of(double unit) { return unit > 0 ? static_cast<uint8_t>(std::min(unit, 1.) * 255 + 0.5) : uint8_t{0}; }
+// To nearest: floor(255 v + 1/2), by half levels. NaN becomes 0.
+uint8_t level_of(double unit) {
+  if (!(unit > 0)) return 0;
+  const int half_levels = static_cast<int>(std::min(unit, 1.) * 510);
+  return static_cast<uint8_t>((half_levels + 1) / 2);
+}
 
 // As the programs multiply levels (fixed_point.glsl).
 uint8_t product(int a, int b) {

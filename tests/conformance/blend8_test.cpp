@@ -49,7 +49,7 @@ std::array<float, 4> as_float(const Level4& levels) {
 }
 
 // NDC of the left (lower) edge of strip i.
-float edge(int i) { return static_cast<float>(i) / (kLevels / 2) - 1; }
+float edge(int i) { return static_cast<float>(i) / (kLevels / 2.f) - 1; }
 
 // Column i of a 256 x 256 target is filled with column(i), then row j is blended with row(j).
 template <class Column, class Row>

@@ -283,7 +283,8 @@ TEST(FixedPointWalk, PaletteAndTexelsAreTheSceneInLevels) {
   }
   const double floor = gradient_floor(*scene.effects.lighting, scene.transfer, volume);
   for (const glm::ivec3 p : {glm::ivec3(0, 7, 39), {20, 20, 20}, {39, 0, 3}, {13, 30, 22}}) {
-    const auto at = static_cast<size_t>(4 * ((p.z * volume.size.y + p.y) * volume.size.x + p.x));
+    const auto sample = static_cast<size_t>((p.z * volume.size.y + p.y) * volume.size.x + p.x);
+    const size_t at = 4 * sample;
     EXPECT_NEAR(texels[at + 3] / 255., volume.at(p.x, p.y, p.z), half);
     const glm::dvec3 gradient = glm::dvec3(volume.at(p.x + 1, p.y, p.z) - volume.at(p.x - 1, p.y, p.z),
                                            volume.at(p.x, p.y + 1, p.z) - volume.at(p.x, p.y - 1, p.z),

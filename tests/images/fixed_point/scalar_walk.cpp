@@ -63,7 +63,8 @@ glm::dvec3 ScalarWalk::position(int x, int y, double depth) const {
 
 int ScalarWalk::texel(int x, int y, int z, int channel) const {
   const glm::ivec3 p = glm::clamp(glm::ivec3(x, y, z), glm::ivec3(0), size_ - 1);
-  return texels_[static_cast<size_t>(((p.z * size_.y + p.y) * size_.x + p.x) * channels_ + channel)];
+  const int index = ((p.z * size_.y + p.y) * size_.x + p.x) * channels_ + channel;
+  return texels_[static_cast<size_t>(index)];
 }
 
 int ScalarWalk::filtered(const std::array<int, 3>& t, int channel) const {
