@@ -148,7 +148,11 @@ std::string case_line(const Results& results) {
   out += ".</p>";
   std::string list;
   size_t named = 0;
-  for (const HardCaseGroup& group : group_cases(results.hard_cases)) {
+  std::vector<HardCaseGroup> groups = group_cases(results.hard_cases);
+  std::stable_sort(groups.begin(), groups.end(), [](const HardCaseGroup& a, const HardCaseGroup& b) {
+    return severity(*a.rows.front()) > severity(*b.rows.front());
+  });
+  for (const HardCaseGroup& group : groups) {
     const HardCaseRow& row = *group.rows.front();
     if (row.outcome != "fail" && row.outcome != "error") continue;
     if (++named > 3) continue;
@@ -164,18 +168,25 @@ std::string motion_line(const Results& results) {
   size_t bad = 0;
   int64_t spikes = 0;
   const SensitivityRow* worst = nullptr;
+  double worst_share = -1;
   for (const SensitivityRow& row : results.sensitivity) {
     bad += row.ok ? 0 : 1;
     spikes += row.spike_count;
-    if (worst == nullptr || row.max > worst->max) worst = &row;
+    const HardCaseRow* check = motion_check(results.hard_cases, row);
+    const double share = check != nullptr ? share_of_bound(*check) : row.limit > 0 ? row.max / row.limit : 0;
+    if (share > worst_share) {
+      worst_share = share;
+      worst = &row;
+    }
   }
-  return fmt::format(
-      "<p class=\"line {}\"><b class=\"state\">{}</b> Small motions of the camera, {}: {}; largest change {} a scene's "
-      "size of motion, in <b>{} ({}, {})</b>.</p>",
-      bad > 0 ? "bad" : "good", bad > 0 ? "&#10007; SPIKES" : "&#10003; holds",
-      plural(results.sensitivity.size(), "picture"),
-      spikes == 0 ? std::string("no spike") : plural(static_cast<size_t>(spikes), "spike"), number(worst->max),
-      escape(worst->key.scene), escape(worst->key.method), escape(worst->key.backend));
+  std::string out = fmt::format("<p class=\"line {}\"><b class=\"state\">{}</b> Small motions of the camera, {}: {}",
+                                bad > 0 ? "bad" : "good", bad > 0 ? "&#10007; SPIKES" : "&#10003; holds",
+                                plural(results.sensitivity.size(), "picture"),
+                                spikes == 0 ? std::string("no spike") : plural(static_cast<size_t>(spikes), "spike"));
+  if (worst != nullptr)
+    out += fmt::format("; worst pixel at <b>{} of its limit</b>, in <b>{} ({}, {})</b>", number(worst_share),
+                       escape(worst->key.scene), escape(worst->key.method), escape(worst->key.backend));
+  return out + ".</p>";
 }
 
 std::string stability_answer(const Model& model) {

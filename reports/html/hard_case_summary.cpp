@@ -36,6 +36,11 @@ HardCaseSummary summarise(std::span<const HardCaseRow> rows) {
   return out;
 }
 
+double severity(const HardCaseRow& row) {
+  if (row.outcome == "not_applicable") return -1;
+  return has_deviation(row) ? share_of_bound(row) : std::numeric_limits<double>::infinity();
+}
+
 std::vector<HardCaseGroup> group_cases(std::span<const HardCaseRow> rows) {
   std::vector<HardCaseGroup> out;
   for (const HardCaseRow& row : rows) {
@@ -43,14 +48,18 @@ std::vector<HardCaseGroup> group_cases(std::span<const HardCaseRow> rows) {
     if (found == out.end()) found = out.insert(out.end(), {row.id, {}});
     found->rows.push_back(&row);
   }
-  auto rank = [](const HardCaseRow* row) {
-    if (row->outcome == "not_applicable") return -1.0;
-    return has_deviation(*row) ? share_of_bound(*row) : std::numeric_limits<double>::infinity();
-  };
   for (HardCaseGroup& group : out)
     std::stable_sort(group.rows.begin(), group.rows.end(),
-                     [&](const HardCaseRow* a, const HardCaseRow* b) { return rank(a) > rank(b); });
+                     [](const HardCaseRow* a, const HardCaseRow* b) { return severity(*a) > severity(*b); });
   return out;
+}
+
+const HardCaseRow* motion_check(std::span<const HardCaseRow> rows, const SensitivityRow& motion) {
+  const auto found = std::find_if(rows.begin(), rows.end(), [&](const HardCaseRow& row) {
+    return row.number == "24" && row.method == motion.key.method && row.backend == motion.key.backend &&
+           row.check.starts_with(motion.key.scene + ":");
+  });
+  return found == rows.end() ? nullptr : &*found;
 }
 
 std::string place_of(const HardCaseRow& row) {

@@ -75,6 +75,7 @@ std::string sensitivity_part(const Model& model, const PictureBook& book) {
     if (std::isfinite(row->max)) largest = std::max(largest, row->max);
   std::string rows, pictures;
   for (const SensitivityRow* row : order) {
+    const HardCaseRow* check = motion_check(model.results.hard_cases, *row);
     auto figure = [](double value) {
       return fmt::format("<td class=\"num\" data-value=\"{:.17g}\">{}</td>", value, number(value));
     };
@@ -83,6 +84,9 @@ std::string sensitivity_part(const Model& model, const PictureBook& book) {
             figure(row->median) + figure(row->p99) + fmt::format("<td data-value=\"{:.17g}\">", row->max) +
             bar(largest > 0 ? row->max / largest : 0, row->ok ? 0 : 1, number(row->max)) + "</td>" +
             figure(row->limit) +
+            (check != nullptr ? "<td class=\"share\">" + bound_bar(share_of_bound(*check)) + " " +
+                                    number(share_of_bound(*check)) + "</td>"
+                              : std::string("<td class=\"none\">-</td>")) +
             fmt::format("<td class=\"num\" data-value=\"{}\">{}</td>", row->spike_count, row->spike_count) + "<td>" +
             spike_list(*row) + (row->reason.empty() ? "" : " <b>" + escape(row->reason) + "</b>") + "</td></tr>";
     pictures += marked_picture(model, book, *row);
@@ -105,6 +109,7 @@ std::string sensitivity_part(const Model& model, const PictureBook& book) {
                      {"p99", true},
                      {"largest", false},
                      {"limit where nearest", true},
+                     {"nearest to its limit", false},
                      {"spikes", true},
                      {"the worst, and where", false}},
                     rows, "wide sortable sensitivity") +

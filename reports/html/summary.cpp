@@ -75,9 +75,14 @@ std::string convergence_tile(const Results& results) {
   if (results.convergence.empty()) return tile("none", "scenes", "Convergence", "not measured", "");
   const int judged = counts["pass"] + counts["fail"];
   std::string detail;
-  for (const char* verdict : {"fail", "not stated", "not resolved"})
+  for (const char* verdict : {"fail", "not resolved", "at the bound", "not stated"})
     if (counts[verdict] > 0) detail += fmt::format("{}{} {}", detail.empty() ? "" : ", ", counts[verdict], verdict);
+  // An order that is stated, and cannot be seen, is no good news.
+  const bool unseen = std::any_of(results.convergence.begin(), results.convergence.end(), [](const Convergence& row) {
+    return row.verdict == "not resolved" && row.expected > 0 && row.values.size() > 2;
+  });
   return tile(counts["fail"] > 0 ? "bad"
+              : unseen           ? "warn"
               : judged > 0       ? "good"
                                  : "none",
               "scenes", "Order of convergence",

@@ -68,8 +68,9 @@ const stabilityLine = async ({ browser, results }) => {
   const pass = rows.filter(({ outcome }) => outcome === 'pass').length;
   assert.ok(line.includes(`${pass} of ${rows.length} checks hold`), line);
   const failures = await texts(browser, '#answer-stability .failures li');
-  assert.ok(failures.some((f) => f.includes('tangent_step (raycast, gl)') && f.includes('3.00 of its bound')), failures.join('; '));
-  assert.match(await text(browser, '#answer-stability'), /SPIKES[^]*41 spikes[^]*ball \(raycast, gl\)/);
+  assert.ok(failures[0].includes('no number') && failures[1].includes('error: the method threw'), 'the worst first');
+  assert.ok(failures.some((f) => f.includes('sensitivity (raycast, gl)') && f.includes('26.0 of its bound')), failures.join('; '));
+  assert.match(await text(browser, '#answer-stability'), /SPIKES[^]*41 spikes[^]*26\.0 of its limit, in ball \(raycast, gl\)/);
 };
 
 const effectCosts = async ({ browser, results }) => {
@@ -164,7 +165,7 @@ const motion = async ({ browser, results }) => {
   const rows = await texts(browser, '#sensitivity ~ .scroll tbody tr');
   assert.equal(rows.length, results.sensitivity.length);
   const bad = results.sensitivity.find(({ ok }) => !ok);
-  assert.ok(rows[0].includes('fail') && rows[0].includes(`${bad.spikes[0].x}, ${bad.spikes[0].y}`) && rows[0].includes('and 38 more'), rows[0]);
+  assert.ok(rows[0].includes('fail') && rows[0].includes('26.0') && rows[1].includes('0.400') && rows[0].includes(`${bad.spikes[0].x}, ${bad.spikes[0].y}`) && rows[0].includes('and 38 more'), rows[0]);
   const marks = await browser.run('return [...document.querySelectorAll(".spots[data-marks]")].map((f) => f.dataset.marks)');
   assert.deepEqual(marks, ['40,30 44,60'], 'the spikes of the first view are marked in its picture');
 };
@@ -269,7 +270,7 @@ const oldFile = async ({ browser, open, quiet }) => {
 const verifyAlone = async ({ browser, open, quiet }) => {
   await open('verify.html');
   assert.match(await text(browser, '#answer-accuracy'), /No method was swept[^]*volumark run accuracy/);
-  assert.match(await text(browser, '#answer-stability'), /5 cases/);
+  assert.match(await text(browser, '#answer-stability'), /6 cases/);
   assert.ok(await browser.run('return document.querySelectorAll("details.case").length > 3'));
   assert.match(await text(browser, '#scenes'), /holds no cells/);
   await quiet();

@@ -155,6 +155,19 @@ void add_hard_cases(Results& results, const std::filesystem::path& folder) {
   results.hard_cases.push_back(broken);
 }
 
+// Of the same motion as add_sensitivity: the pixel that comes nearest to its own limit.
+void add_motion_checks(Results& results) {
+  for (const auto& [method, share] : {std::pair("texture3d_slices", .4), std::pair("raycast", 26.0)}) {
+    HardCaseRow row = hard_case("sensitivity", "24", "The picture follows the camera", method, "gl");
+    row.check = results.scenes[0].name + ": worst pixel of a small motion";
+    row.expected = 0;
+    row.measured = row.deviation = share;
+    row.bound = 1;
+    row.outcome = share > 1 ? "fail" : "pass";
+    results.hard_cases.push_back(row);
+  }
+}
+
 void add_sensitivity(Results& results) {
   for (const char* method : {"texture3d_slices", "raycast"}) {
     SensitivityRow row;
@@ -186,6 +199,7 @@ void add_sections(Results& results, const std::filesystem::path& folder) {
   add_pairs(results);
   add_effects(results, folder);
   add_hard_cases(results, folder);
+  add_motion_checks(results);
   add_sensitivity(results);
   for (size_t i = 0; i < results.convergence.size(); i += 3) {
     results.convergence[i].floor = results.convergence[i].errors.back();
