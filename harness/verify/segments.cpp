@@ -116,25 +116,24 @@ void linear_segment(CaseRun& run) {
 void opacity_correction(CaseRun& run) {
   // Opacity .5 a voxel, in a box of one voxel: .5 for any step, and 1 - .5^.5 where the near plane leaves one half.
   const Scene scene = scene_of(volume_of(ConstantField{1}, {3, 3, 2}), homogeneous(std::log(2.0)));
-  View view = orthographic({0, 0, -1}, 1.4);
-  const auto check = [&](const std::string& name, const Values& values, double expected, double blends) {
-    const Image image = run.draw(scene, values, view, 32, 32);
-    run.add_picture(name, image, "n blends round once each: (n + 4) 2^-23", [&](int x, int y, int) {
+  const auto check = [&](FrameSource& source, const std::string& name, double near, double expected, double blends) {
+    View view = orthographic({0, 0, -1}, 1.4);
+    view.near = near;
+    source.frame(view);
+    run.add_picture(name, source.read_back(), "n blends round once each: (n + 4) 2^-23", [&](int x, int y, int) {
       const bool hit = box_chord(pixel_ray(view, 32, 32, x, y), {1, 1, 0.5}).length() > 0;
       return hit ? within(expected, (blends + 4) * 0x1p-23) : Allowed{};
     });
   };
   for (const char* classification : {"post", "pre", "preintegrated"}) {
     if (!run.has("classification", classification)) continue;
-    const Settings settings = {{"classification", classification}};
-    view.near = 0;
-    for (const double step : {2., 1., 0.5, 0.25, 1. / 3})
-      check(fmt::format("{}, opacity .5 a voxel in steps of {:.3g}", classification, step), run.stepped(step, settings),
-            .5, std::ceil(1 / step));
-    view.near = 4;  // the plane through the box's middle
-    check(fmt::format("{}, half a voxel: 1 - .5^.5", classification), run.stepped(1, settings), .2928932188134525, 1);
-    check(fmt::format("{}, half a voxel in steps of .25", classification), run.stepped(0.25, settings),
-          .2928932188134525, 2);
+    for (const double step : {2., 1., 0.25, 1. / 3}) {
+      const auto source = run.prepare(scene, run.stepped(step, {{"classification", classification}}), 32, 32);
+      check(*source, fmt::format("{}, opacity .5 a voxel in steps of {:.3g}", classification, step), 0, .5,
+            std::ceil(1 / step) + 1);
+      check(*source, fmt::format("{}, half a voxel in steps of {:.3g}: 1 - .5^.5", classification, step), 4,
+            .2928932188134525, std::ceil(.5 / step) + 1);
+    }
   }
   // The cube whose diagonal has optical depth 1: slices across a fixed axis without correction would give .43861609.
   const Scene cube = homogeneous_cube(9, 1 / std::sqrt(3.0));

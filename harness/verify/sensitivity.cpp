@@ -19,10 +19,11 @@ constexpr int kSize = 48;
 constexpr double kFactor = 20;  // curvature, and what the large motion averages out
 constexpr size_t kListed = 32;
 
-// Places of samples are good to 2^-20 of the box. What a camera motion of 2^-20 sizes would change of a picture is
-// that much; rounding moves samples one by one, not all of them alike, and so may change four times as much; blends
-// round as well: 2e-5 over the few hundred that a ray meets (300 * 2^-24).
-double noise_of(const SensitivityFrames& frames);
+// Blends round: 2e-5 over the few hundred that a ray meets (300 * 2^-24).
+constexpr double kBlendNoise = 2e-5;
+// Places of samples are good to 2^-20 of the box. What a motion of so many sizes would change of a pixel is that much
+// of what the large motion changes around it; rounding moves samples one by one, and so may change four times as much.
+constexpr double kPlaceNoise = 4 * 0x1p-20 / kLargeMotion;
 
 double pixel_change(const Image& a, const Image& b, size_t pixel) {
   double out = 0;
@@ -47,11 +48,6 @@ double largest_around(const std::vector<double>& values, int width, int height, 
     for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u)
       out = std::max(out, values[static_cast<size_t>(v) * static_cast<size_t>(width) + static_cast<size_t>(u)]);
   return out;
-}
-
-double noise_of(const SensitivityFrames& frames) {
-  const std::vector<double> large = changes(frames.base, frames.large_motion);
-  return 2e-5 + 4 * 0x1p-20 / kLargeMotion * *std::max_element(large.begin(), large.end());
 }
 
 glm::dvec3 direction(int k) {
@@ -82,7 +78,8 @@ SensitivityFrames draw_frames(FrameSource& source, const View& view, double size
 void add_rows(CaseRun& run, const Scene& scene, const Values& values, const SensitivityFrames& frames,
               std::vector<SensitivityRow>& rows) {
   double worst = 0;
-  SensitivityRow row = judge_sensitivity(frames, noise_of(frames), 0, worst);
+  SensitivityRow row = judge_sensitivity(frames, 0, worst);
+  row.key.experiment = "verify";
   row.key.scene = scene.name;
   row.key.method = run.method().info().name;
   row.key.backend = run.device().info().id;
@@ -104,7 +101,7 @@ void add_rows(CaseRun& run, const Scene& scene, const Values& values, const Sens
 
 }  // namespace
 
-SensitivityRow judge_sensitivity(const SensitivityFrames& frames, double noise, int64_t view, double& worst) {
+SensitivityRow judge_sensitivity(const SensitivityFrames& frames, int64_t view, double& worst) {
   const int width = frames.base.width, height = frames.base.height;
   const std::vector<double> little = changes(frames.base, frames.small_motion);
   const std::vector<double> large = changes(frames.base, frames.large_motion);
@@ -116,15 +113,16 @@ SensitivityRow judge_sensitivity(const SensitivityFrames& frames, double noise, 
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const auto i = static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+      const double around = largest_around(large, width, height, x, y);
+      const double noise = kBlendNoise + kPlaceNoise * around;
       const double small_change = std::max(little[i] - noise, 0.0) / kSmallMotion;
       const double change = std::max(small_change, std::max(large[i] - noise, 0.0) / kLargeMotion);
       if (change > 0) per_motion.push_back(change);
-      const double limit = kFactor * std::max(largest_around(large, width, height, x, y), noise) / kLargeMotion;
+      const double limit = kFactor * std::max(around, kBlendNoise) / kLargeMotion;
       if (small_change > limit) row.spikes.push_back({view, x, y, small_change});
-      if (small_change / limit >= worst) {
-        worst = small_change / limit;
-        row.limit = limit;
-      }
+      const bool worse = small_change / limit > worst, steeper = worst == 0 && limit > row.limit;
+      if (worse || steeper) row.limit = limit;
+      worst = std::max(worst, small_change / limit);
     }
   std::sort(per_motion.begin(), per_motion.end());
   if (!per_motion.empty()) {

@@ -14,15 +14,15 @@ inline constexpr int kDirections = 16;
 
 // Of two sets of pictures: `base`, and for each direction the picture after the small and after the large motion. A
 // pixel's change is that of its largest channel; per motion, in sizes of the scene, it is the larger of the two after
-// float noise was taken off. `noise`: how far a pixel may differ between two frames by rounding alone. A spike is a
-// pixel whose change under the small motion, per motion and without noise, exceeds 20 times the largest one under the
-// large motion within a pixel of it. Fills all but the key; `worst` is how far the worst pixel is above or below that
-// limit (> 1: a spike).
+// what rounding alone may change was taken off. A spike is a pixel whose change under the small motion, per motion and
+// without that noise, exceeds 20 times the largest one under the large motion within a pixel of it. Fills all but the
+// key; `worst`: the largest such change over its limit (> 1: a spike). The row's limit is that of the worst pixel, or
+// of the liveliest one where no pixel leaves the noise.
 struct SensitivityFrames {
   Image base;
   std::vector<Image> small_motion, large_motion;
 };
-SensitivityRow judge_sensitivity(const SensitivityFrames& frames, double noise, int64_t view, double& worst);
+SensitivityRow judge_sensitivity(const SensitivityFrames& frames, int64_t view, double& worst);
 
 // Every shipped scene by the case's method on its backend: a row of the case and a row of sensitivity each.
 void run_sensitivity(CaseRun& run, std::vector<SensitivityRow>& rows, std::vector<SceneResultInfo>& scenes);

@@ -165,7 +165,7 @@ class Suite {
         hard_case.check(run);
       }
     } catch (const NotApplicable& why) {
-      run.not_applicable("the rest", why.what());
+      run.not_applicable(run.empty() ? "the case" : "the rest of the case", why.what());
     } catch (const std::exception& error) {
       run.error(error.what());
     }
