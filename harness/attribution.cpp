@@ -60,7 +60,7 @@ class Attributor {
   std::optional<Measured> measured_before(const Values& values) const;
   Measured draw(const Values& values);
   void check_limits(const Instant& start) const;
-  std::string named_cause(const AttributionPart& part) const;
+  std::string named_cause(const AttributionPart& part, bool quality_axis) const;
 
   const PlannedCell& planned_;
   const SceneContext& context_;
@@ -119,7 +119,7 @@ AttributionPart Attributor::part(const ParameterInfo& parameter) {
   out.error = measured.error;
   out.worth = 1 - (measured.error * measured.error) / (error * error);
   out.seconds = measured.seconds;
-  out.note = measured.why_not.empty() ? named_cause(out) : measured.why_not;
+  out.note = measured.why_not.empty() ? named_cause(out, parameter.quality_axis) : measured.why_not;
   return out;
 }
 
@@ -206,8 +206,10 @@ std::string upper(std::string text) {
   return text;
 }
 
-std::string Attributor::named_cause(const AttributionPart& part) const {
-  if (part.worth < -kWorthNaming) return "the error grew: this part had cancelled another";
+std::string Attributor::named_cause(const AttributionPart& part, bool quality_axis) const {
+  if (part.worth < -kWorthNaming)
+    return quality_axis ? "the error grew: finer work rounds more often, or two errors had cancelled"
+                        : "the error grew: two errors had cancelled";
   if (!(part.worth > kWorthNaming) || part.aspect != "volume texture and filter") return "";
   const std::string format = texel_format(part.from, context_.scene.volume->type);
   for (const BackendResultInfo& backend : results_.backends) {

@@ -121,7 +121,7 @@ std::string attribution_text(const Results& results) {
   if (results.attribution.empty()) return {};
   return "\nWhere the error comes from: one part made ideal at a time; worth: the share of the squared error that this "
          "takes\n"
-         "away (below 0: it had cancelled another error)\n\n" +
+         "away (below 0: the error grew)\n\n" +
          (results.attribution.size() <= kFewCells ? detail_table(results) : summary_table(results)) + notes(results) +
          floors(results);
 }
