@@ -30,6 +30,12 @@ enum class Defect {
   UnassociatedColours,
   IsotropicGradients,
   PlacedInFloat,
+  AxesTransposed,
+  SignedOffByOne,
+  UnnormalisedHalfway,
+  UnboundedNormal,
+  OrderIgnored,
+  LostEdge,
 };
 
 #ifdef VOLUMARK_DEFECTS

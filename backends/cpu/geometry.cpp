@@ -155,9 +155,10 @@ Edge make_edge(const WindowVertex& p, const WindowVertex& q) {
   const int64_t dx = q.sx - p.sx;
   const int64_t dy = q.sy - p.sy;
   const bool top_left = dy < 0 || (dy == 0 && dx > 0);
+  const bool holds_edge = (top_left && !defect(Defect::LostEdge)) || defect(Defect::DoubledEdge);
   // At sub-pixel (x, y): dx (y - p.y) - dy (x - p.x); centres lie at 256 i + 128. Dividing by 256 and rounding down
   // keeps the sign at every centre.
-  const int64_t at_origin = dx * (128 - p.sy) - dy * (128 - p.sx) - (top_left || defect(Defect::DoubledEdge) ? 0 : 1);
+  const int64_t at_origin = dx * (128 - p.sy) - dy * (128 - p.sx) - (holds_edge ? 0 : 1);
   return {static_cast<int32_t>(-dy), static_cast<int32_t>(dx), at_origin >> kSubPixelBits};
 }
 

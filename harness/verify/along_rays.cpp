@@ -1,4 +1,4 @@
-// What adds up along a ray: the order of its segments, thin segments, where a ray may end early; and light on the way.
+// What adds up along a ray: the order of its segments, thin segments, where a ray may end early.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -33,21 +33,26 @@ const ParameterInfo* early_termination(const Method& method) {
 
 void segments_in_order(CaseRun& run) {
   // Red in front, green behind, extinction rising or falling: whatever number of pre-integrated segments cuts the ray,
-  // they compose to the whole. Their ends lie on nodes of the table.
+  // and in whatever order they are drawn, they compose to the whole. Their ends lie on nodes of the table.
   constexpr double kEnds[][3] = {{0, 2, .746824132812}, {2, 0, .538079506913}};
-  for (const auto& [a, b, psi] : kEnds) {
+  const auto check = [&](const double(&ends)[3], int n, const char* order) {
+    const auto [a, b, psi] = ends;
     const Scene scene =
         scene_of(volume_of(RampField{2, 1, 0}, {3, 3, 2}), transfer_of({{0, {1, 0, 0}, a}, {1, {0, 1, 0}, b}}));
     const double zeta = std::exp(-(a + b) / 2), expected[] = {1 - psi, psi - zeta, 0, 1 - zeta};
-    for (const int n : {2, 3, 8}) {
-      const Values values = run.stepped(1. / n, {{"classification", "preintegrated"}, {"preintegrated_size", 241}});
-      const Image image = run.draw(scene, values, orthographic({0, 0, -1}, 0.9), kSize, kSize);
-      run.add_picture(
-          fmt::format("extinction from {:g} to {:g} in {} segments", a, b, n), image,
-          "ends of each segment to 2^-20 of the box, where light changes by at most 4 a unit; floats of the "
-          "table; n blends",
-          [&](int, int, int channel) { return within(expected[channel], (4 + n) * 0x1p-20); });
-    }
+    Settings settings = {{"classification", "preintegrated"}, {"preintegrated_size", 241}};
+    if (*order != '\0') settings.emplace_back("order", order);
+    const Image image =
+        run.draw(scene, run.stepped(1. / n, std::move(settings)), orthographic({0, 0, -1}, 0.9), kSize, kSize);
+    run.add_picture(fmt::format("extinction from {:g} to {:g} in {} segments {}", a, b, n, order), image,
+                    "ends of each segment to 2^-20 of the box, where light changes by at most 4 a unit; floats of the "
+                    "table; n blends",
+                    [&](int, int, int channel) { return within(expected[channel], (4 + n) * 0x1p-20); });
+  };
+  for (const char* order : {"", "front_to_back"}) {  // "": as by default
+    if (*order != '\0' && !run.has("order", order)) continue;
+    for (const auto& ends : kEnds)
+      for (const int n : {2, 3, 8}) check(ends, n, order);
   }
 }
 
@@ -85,32 +90,6 @@ void early_end(CaseRun& run) {
                .bound = rounding + (left < threshold ? threshold : 0),
                .source = "a ray that lets more through is never cut; of any other at most the threshold is lost"});
     }
-}
-
-void lit_gradient(CaseRun& run) {
-  // A field linear in x and y on a lattice of unequal spacing: the same normal everywhere but at its border.
-  const glm::dvec3 spacing(0.25, 0.1, 0.5), slope(0.5, 0.5, 0);
-  const glm::ivec3 size(9, 9, 3);
-  std::vector<float> values;
-  for (int k = 0; k < size.z; ++k)
-    for (int j = 0; j < size.y; ++j)
-      for (int i = 0; i < size.x; ++i)
-        values.push_back(static_cast<float>(1 + glm::dot(slope, spacing * glm::dvec3(i - 4, j - 4, k - 1))));
-  const glm::dvec3 colour(1, 0.5, 0.25);
-  Scene scene = scene_of(volume_of(values, size, spacing), homogeneous(2, colour));
-  Lighting lighting;
-  lighting.lights = {{Light::Kind::Directional, glm::normalize(glm::dvec3(-1, 0.2, 1)), glm::dvec3(1)}};
-  scene.effects.lighting = lighting;
-  const View view = orthographic({0, 0, -1}, 0.25);  // keeps clear of the border by more than a voxel
-  const Image image = run.draw(scene, run.stepped(1), view, kSize, kSize);
-  const double facing = glm::dot(-glm::normalize(slope), lighting.lights[0].vector), opacity = -std::expm1(-2.0);
-  const double light = lighting.ambient + lighting.diffuse * facing;
-  run.add_picture("a linear field, spacing .25 x .1 x .5", image,
-                  "two samples to 2^-23 of the window each, over a difference of .05 of it; 12 blends",
-                  [&](int, int, int channel) {
-                    return channel == 3 ? within(opacity, 12 * 0x1p-23)
-                                        : within(colour[channel] * light * opacity, 4 * 0x1p-23 / 0.05);
-                  });
 }
 
 }  // namespace volumark::hard_cases

@@ -36,7 +36,9 @@ void reference_bound(CaseRun& run);
 void segments_in_order(CaseRun& run);
 void thin_medium(CaseRun& run);
 void early_end(CaseRun& run);
+// lattices.cpp
 void lit_gradient(CaseRun& run);
+void voxel_types(CaseRun& run);
 // agreement.cpp
 void agreement(CaseRun& run);
 

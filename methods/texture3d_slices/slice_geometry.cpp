@@ -206,7 +206,8 @@ void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& exte
   for (int i = 0; i < slabs.count; ++i) {
     if (defect(Defect::LostSlice) && i == slabs.count / 2) continue;
     const int turn = defect(Defect::SwappedSlices) && (i ^ 1) < slabs.count ? i ^ 1 : i;
-    const double middle = slabs.middle(front_to_back ? turn : slabs.count - 1 - turn);
+    const bool forwards = front_to_back && !defect(Defect::OrderIgnored);
+    const double middle = slabs.middle(forwards ? turn : slabs.count - 1 - turn);
     const double reach = whole_slabs ? 0.5 * slabs.step : 0;
     const std::vector<glm::dvec2> hull = hull_of_slab(body, rays, middle - reach, middle + reach, margin);
     if (hull.size() < 3) continue;

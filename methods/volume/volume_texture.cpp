@@ -105,7 +105,8 @@ VolumeTexels scalar_texels(const Scene& scene, const VolumeSettings& settings) {
   } else {
     texels.converted.resize(voxel_count(volume) * texel_bytes(texels.format));
     if (raw) {
-      sampled = {volume.slope * 65535, volume.intercept - 32768 * volume.slope};
+      sampled = {volume.slope * 65535,
+                 volume.intercept - (defect(Defect::SignedOffByOne) ? 32767 : 32768) * volume.slope};
       each_voxel(volume, [&](size_t i, double v) { put(texels.converted, i, static_cast<uint16_t>(v + 32768)); });
     } else {
       // Integer texels cover the range of the data; float texels hold the value normalised by the window.

@@ -222,7 +222,8 @@ HWY_INLINE Light3 light_sample(const VolumeBindings& b, const Floats3& box) {
   const VolumeUniforms& vm = b.vm;
   const Floats zero = splat(0.F);
   const Floats3 g = sample_gradient(b, box);
-  const Floats3 n = scaled(g, hn::Div(splat(-1.F), hn::Max(hn::Sqrt(dot(g, g)), splat(vm.gradient_scale[3]))));
+  const float least = defect(Defect::UnboundedNormal) ? 0.F : vm.gradient_scale[3];
+  const Floats3 n = scaled(g, hn::Div(splat(-1.F), hn::Max(hn::Sqrt(dot(g, g)), splat(least))));
   const Floats3 local = scaled(
       Floats3{hn::Sub(box.x, splat(.5F)), hn::Sub(box.y, splat(.5F)), hn::Sub(box.z, splat(.5F))} * splat3(vm.extent),
       splat(1.F));
@@ -239,7 +240,7 @@ HWY_INLINE Light3 light_sample(const VolumeBindings& b, const Floats3& box) {
     sum.diffuse = along(sum.diffuse, hn::Mul(facing, splat(vm.lighting[1])), colour);
     if (vm.counts[2] > 0) {
       const Floats3 h = l + v;
-      const Floats h2 = dot(h, h);
+      const Floats h2 = defect(Defect::UnnormalisedHalfway) ? splat(1.F) : dot(h, h);
       Floats nh = hn::IfThenElse(hn::Gt(h2, zero), hn::Div(dot(n, h), hn::Sqrt(hn::Max(h2, splat(1e-35F)))), zero);
       nh = two_sided ? hn::Abs(nh) : hn::IfThenElse(hn::Gt(nl, zero), hn::Max(nh, zero), zero);
       const auto lit = hn::Gt(nh, zero);

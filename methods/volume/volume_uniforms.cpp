@@ -20,7 +20,7 @@ struct LocalFrame {
   glm::dmat3 to_local;
   explicit LocalFrame(const Volume& volume)
       : middle(volume.origin + volume.axes * (volume.spacing * glm::dvec3(volume.size - 1) * 0.5)),
-        to_local(glm::transpose(volume.axes)) {}
+        to_local(defect(Defect::AxesTransposed) ? volume.axes : glm::transpose(volume.axes)) {}
   glm::dvec3 point(const glm::dvec3& world) const {
     if (defect(Defect::PlacedInFloat)) return to_local * glm::dvec3(glm::vec3(world) - glm::vec3(middle));
     return to_local * (world - middle);

@@ -49,6 +49,14 @@ inline constexpr std::array kPlantedDefects = {
     PlantedDefect{Defect::IsotropicGradients, "isotropic gradients", "gradients ignore unequal spacing", ""},
     PlantedDefect{Defect::PlacedInFloat, "placed in float", "world positions rounded to float before the subtraction",
                   ""},
+    PlantedDefect{Defect::AxesTransposed, "axes transposed", "turned lattices turn the other way", ""},
+    PlantedDefect{Defect::SignedOffByOne, "signed off by one", "16-bit signed voxels read one level too high", ""},
+    PlantedDefect{Defect::UnnormalisedHalfway, "unnormalised halfway vector",
+                  "l + v of the specular term not normalised", ""},
+    PlantedDefect{Defect::UnboundedNormal, "unbounded normal", "a vanishing gradient is divided by its length", ""},
+    PlantedDefect{Defect::OrderIgnored, "order ignored", "front to back draws back to front", "texture3d_slices"},
+    PlantedDefect{Defect::LostEdge, "lost edge", "the fill rule counts pixels on a shared edge never",
+                  "texture3d_slices"},
 };
 
 }  // namespace volumark

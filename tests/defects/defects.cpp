@@ -75,8 +75,9 @@ std::string table_row(const PlantedDefect& planted, const std::vector<HardCaseRo
   if (rows.empty()) return first() + " nothing | | |\n";
   const HardCaseRow& clearest =
       *std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) { return share(a) < share(b); });
-  const std::string figures = clearest.outcome == "error"
-                                  ? fmt::format(" {} | |", clearest.reason)
+  const std::string figures = clearest.outcome == "error" ? fmt::format(" {} | |", clearest.reason)
+                              : clearest.deviation > 1e300
+                                  ? fmt::format(" not finite | {:.2g} |", clearest.bound)
                                   : fmt::format(" {:.2g} | {:.2g} |", clearest.deviation, clearest.bound);
   return first() + fmt::format(" {} |", cases_of(rows, clearest)) + figures + "\n";
 }
