@@ -90,12 +90,28 @@ std::string time_to_error_tables(const Results& results) {
          rmse + "\nThe same for FLIP, 99th percentile\n\n" + flip;
 }
 
+// Of cells that were measured without a reference: nothing but the time is known.
+std::string times_table(const Results& results) {
+  std::vector<Row> rows = {{"scene", "method", "backend", "setting", "time", "95 %"}};
+  for (const Result& result : results.results) {
+    if (result.outcome != Outcome::Ok || result.error || !result.metrics || a_view_shows_nothing(result)) continue;
+    const Stats& wall = result.metrics->frame_wall.stats;
+    rows.push_back({result.key.scene, result.key.method + series_suffix(results, result.key),
+                    result.key.backend + (is_software(results, result.key.backend) ? "*" : ""),
+                    result.quality ? fmt::format("{}={:g}", result.quality->parameter, result.quality->value) : "-",
+                    seconds_text(wall.median), seconds_text(wall.median_lo) + ".." + seconds_text(wall.median_hi)});
+  }
+  if (rows.size() == 1) return {};
+  return "\nTime a frame, measured without a reference: nothing is known of the error\n\n" + text_table(rows, 4);
+}
+
 std::string empty_view_lines(const Results& results) {
   const auto empty = std::count_if(results.results.begin(), results.results.end(), a_view_shows_nothing);
   return empty == 0 ? ""
-                    : fmt::format("\nViews that show nothing but the background have no say in errors; cells with such "
-                                  "views: {}\n",
-                                  empty);
+                    : fmt::format(
+                          "\nViews that show nothing but the background have no say in errors; cells with such "
+                          "views: {}\n",
+                          empty);
 }
 
 std::string convergence_table(const Results& results) {
@@ -164,7 +180,7 @@ std::string seconds_text(double seconds) {
 }
 
 std::string tables_text(const Results& results) {
-  return time_to_error_tables(results) + empty_view_lines(results) + convergence_table(results) +
+  return time_to_error_tables(results) + times_table(results) + empty_view_lines(results) + convergence_table(results) +
          attribution_text(results) + pairs_text(results) + effects_table(results) + parity_lines(results) +
          outcome_lines(results);
 }

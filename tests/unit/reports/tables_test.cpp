@@ -48,6 +48,16 @@ TEST(Tables, TimeToErrorSaysBetweenWhichSettings) {
   EXPECT_NE(tables_text(results).find("cells with such views: 1"), std::string::npos);
 }
 
+TEST(Tables, WithoutAReferenceTheTimesAreThere) {
+  Results results = sample_results();
+  EXPECT_EQ(tables_text(results).find("without a reference"), std::string::npos);
+  results.results[0].error.reset();
+  results.results[0].views[0].error.reset();
+  const std::string text = tables_text(results);
+  EXPECT_NE(text.find("without a reference"), std::string::npos) << text;
+  EXPECT_NE(text.find("step=0.5  20 ms  15 ms..25 ms"), std::string::npos) << text;
+}
+
 TEST(SeriesSuffix, NamesWhatIsUnusual) {
   Results results = sample_results();
   results.results.resize(1);
