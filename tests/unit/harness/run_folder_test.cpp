@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <sys/wait.h>
 
+#include "harness/resume.h"
 #include "tests/unit/harness/test_folder.h"
 
 namespace volumark {
@@ -121,6 +122,12 @@ TEST(RunFolder, UnusableFoldersAreClearErrors) {
   const TestFolder folder;
   const auto file = folder.write("file", "x");
   EXPECT_THROW(RunFolder{file}, FolderError);
+}
+
+TEST(Resume, TheCommandGoesOnWithTheSameCells) {
+  EXPECT_EQ(resume_command({"volumark", "run", "quick", "--overwrite", "--sweep", "step=4..1*0.5", "-o", "my out"}),
+            "volumark run quick --sweep 'step=4..1*0.5' -o 'my out' --resume");
+  EXPECT_EQ(resume_command({"volumark", "run", "quick", "--resume"}), "volumark run quick --resume");
 }
 
 }  // namespace

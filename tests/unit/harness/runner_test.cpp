@@ -301,5 +301,13 @@ TEST_F(RunnerTest, BackendsThatDisagreeAreBadNews) {
   EXPECT_FALSE(outcome.bad_news.empty());
 }
 
+TEST_F(RunnerTest, TargetsWithFewBitsAreNotHeldToTheOthersPictures) {
+  Json json = experiment();
+  json["backends"] = {"cpu", "null"};
+  json["parity"] = 0.002;
+  json["methods"] = {{{"method", "texture3d_slices"}, {"set", {{"target_format", "rgba8"}}}}};
+  EXPECT_TRUE(run(json).results.parity.empty());
+}
+
 }  // namespace
 }  // namespace volumark
