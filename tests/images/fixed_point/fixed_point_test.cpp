@@ -238,13 +238,11 @@ void expect_as_walked(const Scene& scene, const FixedSettings& settings, Setting
 
 TEST(FixedPointWalk, UnlitPixels) {
   const Scene scene = smooth(kClipped);
-  const double step = scene.volume->spacing.x * 0.8;
-  expect_as_walked(scene, {Classification::Post, false, step}, {{"step", "0.8"}});
+  expect_as_walked(scene, {Classification::Post, false, 0.8 * scene.volume->spacing.x}, {{"step", "0.8"}});
 }
 TEST(FixedPointWalk, LitPixels) {
   const Scene scene = smooth(kOneSided);
-  const double step = scene.volume->spacing.x * 0.8;
-  expect_as_walked(scene, {Classification::Post, false, step}, {{"step", "0.8"}});
+  expect_as_walked(scene, {Classification::Post, false, 0.8 * scene.volume->spacing.x}, {{"step", "0.8"}});
 }
 
 // Samples lie where the pixel's ray does: the uniforms against the geometry of scenes/scene.h.
@@ -350,10 +348,8 @@ TEST(FixedPointPicture, LightIsClampedToOne) {
   EXPECT_EQ(difference(bright, lit_by(40)).max, 0);
   EXPECT_GT(difference(bright, lit_by(0.5)).max, 0.05);
   for (size_t i = 0; i < bright.rgba.size(); i += 4) {
-    for (size_t c = 0; c < 3; ++c) {
-      // Colour and opacity go through the same products, so that colour stays below opacity.
-      ASSERT_LE(bright.rgba[i + c], bright.rgba[i + 3]) << "pixel " << i / 4;
-    }
+    // Colour and opacity go through the same products, so that colour stays below opacity.
+    for (size_t c = 0; c < 3; ++c) ASSERT_LE(bright.rgba[i + c], bright.rgba[i + 3]) << "pixel " << i / 4;
   }
 }
 
