@@ -29,12 +29,12 @@ vec4 texel_of(float stored, vec2 at) {
   return textureLod(page, tile * vm.own[1].xy + vm.own[2].xy + at * vm.own[1].zw, 0.);
 }
 
-// The texel at a point of the slab around slice k: the stored slice that is nearest to k, or of the two around the point
-// their eq. 1.
+// The texel at a point of the slab around slice k: of the stored slice that is nearest to k (half way: of the even one,
+// so that slices are not shifted as a whole), or their eq. 1 of the two around the point.
 vec4 sample_slice(float k, vec3 box) {
   vec2 at = clamp(box.xy, 0., 1.) * vm.texture_scale.xy + vm.texture_offset.xy;
   float first = vm.own[2].w, last = vm.own[3].w;
-  if (VM_INTERPOLATE == 0) return texel_of(clamp(floor(vm.own[0].z + k * vm.own[3].z + .5), first, last), at);
+  if (VM_INTERPOLATE == 0) return texel_of(clamp(roundEven(vm.own[0].z + k * vm.own[3].z), first, last), at);
   float stored = box.z * vm.own[0].w;
   float below = clamp(floor(stored), first, max(last - 1., first));
   return mix(texel_of(below, at), texel_of(min(below + 1., last), at), clamp(stored - below, 0., 1.));

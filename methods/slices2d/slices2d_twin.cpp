@@ -185,7 +185,7 @@ HWY_INLINE Rgba sample_slice(const VolumeUniforms& vm, const Page& page, Floats 
   const Floats ay = hn::MulAdd(clamp01(box.y), splat(vm.texture_scale[1]), splat(vm.texture_offset[1]));
   if constexpr (!interpolate) {
     const Floats stored = hn::MulAdd(k, splat(vm.own[3][2]), splat(vm.own[0][2]));
-    return page(hn::Min(hn::Max(hn::Floor(hn::Add(stored, splat(.5F))), first), last), ax, ay);
+    return page(hn::Min(hn::Max(hn::Round(stored), first), last), ax, ay);
   } else {
     const Floats stored = hn::Mul(box.z, splat(vm.own[0][3]));
     const Floats below = hn::Min(hn::Max(hn::Floor(stored), first), hn::Max(hn::Sub(last, one), first));
