@@ -40,6 +40,18 @@ Least least_time(const Model& model, const Block& block, const std::string& meth
   return out;
 }
 
+// Why a method has no time with an error in this scene.
+std::string outcome_words(const Model& model, const Block& block, const std::string& method) {
+  std::string out;
+  for (const size_t i : block.cells) {
+    const Result& cell = model.results.results[i];
+    if (cell.key.method != method || !cell.key.variant.empty()) continue;
+    const std::string word = shows_nothing(cell) ? "shows nothing" : to_string(cell.outcome);
+    if (out.find(word) == std::string::npos) out += (out.empty() ? "" : ", ") + word;
+  }
+  return "<a href=\"#problems\">" + (out.empty() || out == "ok" ? std::string("no figure") : escape(out)) + "</a>";
+}
+
 std::string least_cells(const Model& model, const Block& block, const std::string& method, bool software,
                         const std::string& metric, std::span<const double> targets, const char* group) {
   std::string out;
@@ -63,7 +75,8 @@ std::string least_cells(const Model& model, const Block& block, const std::strin
                ? fmt::format("<td class=\"num missed {}\" colspan=\"{}\">{}<i>best</i> {}</td>", group, end - i,
                              end - i > 1 ? "not reached, " : "<span class=\"sr\">not reached, </span>",
                              scientific(least.best_error))
-               : fmt::format("<td class=\"num none {}\" colspan=\"{}\">no figure</td>", group, end - i);
+               : fmt::format("<td class=\"num none {}\" colspan=\"{}\">{}</td>", group, end - i,
+                             outcome_words(model, block, method));
     i = end - 1;
   }
   return out;

@@ -36,16 +36,23 @@ std::vector<std::pair<double, double>> points_of(const Convergence& series) {
   return out;
 }
 
+// Some axes count what is done (slices): their finer values are larger, and the error falls with their inverse.
+bool finer_is_larger(const Convergence& series) {
+  return series.values.size() > 1 && series.values.back() > series.values.front();
+}
+
 // The slope that is expected, from the coarsest point on, as long as it stays within the frame.
 std::string expected_slope(const PlotAxes& axes, PlotLabels& labels, const Convergence& series) {
   const auto points = points_of(series);
   if (!(series.expected > 0) || points.size() < 2) return "";
   const auto [v0, e0] = points.front();
-  const double lowest = axes.y.lo(), finest = points.back().first;
-  const double reach = v0 * std::pow(lowest / e0, 1 / series.expected);  // where it leaves the frame
-  const double end = std::max(finest, reach);
-  if (!(end < v0)) return "";
-  const double error = e0 * std::pow(end / v0, series.expected);
+  const double power = finer_is_larger(series) ? -series.expected : series.expected;
+  double end = points.back().first, error = e0 * std::pow(end / v0, power);
+  if (error < axes.y.lo()) {  // it leaves the frame before
+    error = axes.y.lo();
+    end = v0 * std::pow(error / e0, 1 / power);
+  }
+  if (!(error < e0)) return "";
   return plot_line(axes, {{v0, e0}, {end, error}}, "slope") +
          labels.put(std::sqrt(v0 * end), std::sqrt(e0 * error), "order " + compact(series.expected));
 }
@@ -83,17 +90,24 @@ std::string convergence_plot(const Model& model, const Block& block, const std::
                              const std::string& parameter) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   double v0 = inf, v1 = 0, e0 = inf, e1 = 0;
+  bool larger = false;
   for (const Convergence* series : all)
-    if (series->parameter == parameter)
+    if (series->parameter == parameter) {
+      larger = larger || finer_is_larger(*series);
       for (const auto& [value, error] : points_of(*series)) {
         v0 = std::min(v0, value);
         v1 = std::max(v1, value);
         e0 = std::min(e0, error);
         e1 = std::max(e1, error);
       }
+    }
   if (!(e1 > 0)) return "";
-  const PlotAxes axes{plot_x_axis(v0, v1), plot_y_axis(e0, e1), 1, parameter + " (finer to the left)",
-                      "RMSE, worst view",  kErrorTargets};
+  const PlotAxes axes{plot_x_axis(v0, v1),
+                      plot_y_axis(e0, e1),
+                      1,
+                      parameter + (larger ? " (finer to the right)" : " (finer to the left)"),
+                      "RMSE, worst view",
+                      kErrorTargets};
   std::string out = fmt::format(
       "<figure><svg class=\"plot\" data-plot=\"convergence\" viewBox=\"0 0 {} {}\" role=\"group\" aria-label=\"RMSE "
       "against {}, {}\">",

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "reports/html/bars.h"
 #include "reports/html/effect_rows.h"
@@ -40,7 +41,13 @@ std::string bars_of(const std::vector<const EffectRow*>& rows) {
     out += "<li><p><b>" + escape(row->effect) + "</b> " + escape(row->key.method) + " on " + escape(row->key.backend) +
            " <span class=\"dim change\">" + change_text(*row) + "</span></p>" +
            bar(time(row->with), 0, interval(row->with)) + bar(time(row->without), 1, interval(row->without));
-    if (row->instructions_with > 0 || row->instructions_without > 0)
+    // The same on every backend: once is enough.
+    const bool counted = std::any_of(rows.begin(), rows.end(), [&](const EffectRow* other) {
+      return std::less<>()(other, row) && other->key.method == row->key.method && other->effect == row->effect &&
+             other->instructions_with == row->instructions_with &&
+             other->instructions_without == row->instructions_without;
+    });
+    if (!counted && (row->instructions_with > 0 || row->instructions_without > 0))
       out += bar(text(row->instructions_with), 0, fmt::format("{} instructions", row->instructions_with)) +
              bar(text(row->instructions_without), 1, fmt::format("{} instructions", row->instructions_without));
     out += "</li>";
