@@ -182,6 +182,23 @@ TEST_F(Cli, RunValidateReport) {
   expect("report bad.json", 2, "cannot be read: this program knows version 1");
 }
 
+TEST_F(Cli, VerifyWritesResultsAndNamesItsCases) {
+  expect("verify --list", 0, "not there yet: needs an octree");
+  expect("verify --case slap --backend cpu", 2, "did you mean");
+  expect("verify --backend cp", 2, "unknown backend");
+  expect("verify --case 23b,sphere_field --backend cpu --out verified", 0, "2 cases, ");
+  expect("validate verified", 0, "valid");
+  const Json results = Json::parse(text_of_file(folder_.path() / "verified" / "results.json"));
+  ASSERT_FALSE(results["hard_cases"].empty());
+  for (const Json& row : results["hard_cases"]) {
+    EXPECT_EQ(row["outcome"], "pass") << row.dump();
+    EXPECT_LE(row["deviation"].get<double>(), row["bound"].get<double>()) << row.dump();
+  }
+  const Said said = volumark("verify --case sphere_field --backend cpu --json");
+  EXPECT_EQ(said.code, 0);
+  EXPECT_EQ(Json::parse(said.text)["hard_cases"][0]["id"], "sphere_field");
+}
+
 TEST_F(Cli, OneCellRunsAgainByItsCommand) {
   write_experiment(0);
   volumark("run ./tiny.json --out out");

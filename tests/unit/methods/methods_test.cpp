@@ -98,6 +98,28 @@ TEST(Methods, LimitsAndCombinationsGiveAReason) {
   EXPECT_THAT(reason(clipped, values, roomy_backend()), ::testing::HasSubstr("17 clip planes"));
 }
 
+// llvmpipe ends a program's loops after 65535 turns; with empty-space skipping a segment takes two.
+TEST(Methods, RaysOfMoreSegmentsThanADriverLoopsAreRefused) {
+  const Method& method = find_method("raycast");
+  Scene deep = small_scene();
+  auto volume = std::make_shared<Volume>(*deep.volume);
+  volume->spacing = {1, 1, 100};  // a diagonal of 300 smallest spacings
+  deep.volume = volume;
+  Values values = default_values(method.info().parameters);
+  BackendInfo mesa = roomy_backend();
+  mesa.renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
+  const auto refused = [&](double step, const char* skip, const BackendInfo& backend) {
+    values["step"] = step;
+    values["skip_empty"] = std::string(skip);
+    return unsupported_reason(method, deep, values, backend).has_value();
+  };
+  EXPECT_TRUE(refused(300 / 40000., "bricks", mesa));
+  EXPECT_FALSE(refused(300 / 40000., "none", mesa));
+  EXPECT_TRUE(refused(300 / 70000., "none", mesa));
+  EXPECT_FALSE(refused(300 / 30000., "bricks", mesa));
+  EXPECT_FALSE(refused(300 / 70000., "bricks", roomy_backend()));
+}
+
 TEST(Methods, ExpectedOrderOfSlices) {
   const MethodInfo& info = find_method("texture3d_slices").info();
   const auto order = [&](std::initializer_list<std::pair<const char*, const char*>> changes) {
