@@ -44,10 +44,11 @@ void segments_in_order(CaseRun& run) {
     if (*order != '\0') settings.emplace_back("order", order);
     const Image image =
         run.draw(scene, run.stepped(1. / n, std::move(settings)), orthographic({0, 0, -1}, 0.9), kSize, kSize);
-    run.add_picture(fmt::format("extinction from {:g} to {:g} in {} segments {}", a, b, n, order), image,
-                    "ends of each segment to 2^-20 of the box, where light changes by at most 4 a unit; floats of the "
-                    "table; n blends",
-                    [&](int, int, int channel) { return within(expected[channel], (4 + n) * 0x1p-20); });
+    run.add_picture(
+        fmt::format("extinction from {:g} to {:g} in {} segments{}{}", a, b, n, *order == 0 ? "" : ", ", order), image,
+        "ends of each segment to 2^-20 of the box, where light changes by at most 4 a unit; floats of the "
+        "table; n blends",
+        [&](int, int, int channel) { return within(expected[channel], (4 + n) * 0x1p-20); });
   };
   for (const char* order : {"", "front_to_back"}) {  // "": as by default
     if (*order != '\0' && !run.has("order", order)) continue;
