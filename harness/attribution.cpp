@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <new>
+#include <stdexcept>
 
 #include "harness/filter_levels.h"
 #include "harness/frame.h"
@@ -38,7 +39,8 @@ const ViewResult& worst_view(const Result& result) {
   const ViewResult* worst = nullptr;
   for (const ViewResult& view : result.views)
     if (view.error && !view.shows_nothing && (worst == nullptr || view.error->rmse > worst->error->rmse)) worst = &view;
-  return *worst;  // the cell has an error
+  if (worst == nullptr) throw std::invalid_argument("attribution of a cell without an error");
+  return *worst;
 }
 
 class Attributor {
