@@ -12,6 +12,7 @@
 // Every vector that a program gets is given in it, and one program draws all three stacks.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
