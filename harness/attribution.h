@@ -13,8 +13,7 @@ namespace volumark {
 
 // `results` hold the cell, and whatever else of the run needs not be drawn again. A part that cannot be drawn
 // (unsupported, out of memory, out of time, a driver's failure) has NaN for its figures and says why in its note.
-// Throws Interrupted, and
-// std::invalid_argument for a cell without an error.
+// Throws Interrupted, and std::invalid_argument for a cell without an error.
 Attribution attribute(const PlannedCell& cell, const SceneContext& context, const CellOptions& options,
                       const Results& results);
 
