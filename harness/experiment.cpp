@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "harness/parse_claims.h"
 #include "harness/paths.h"
 #include "scenes/errors.h"
 #include "scenes/json_reader.h"
@@ -159,9 +160,27 @@ void parse_sampling(const JsonObject& object, Experiment& out) {
 Experiment parse_experiment(std::string_view text, const std::string& path) {
   const nlohmann::json json = parse_json(text, path);
   const JsonNode root(json, "", path);
-  const JsonObject object(root, {"name", "title", "description", "scenes", "methods", "backends", "views", "image_size",
-                                 "sampling", "images", "reference_tolerance", "reference_budget", "limits",
-                                 "finest_limits", "parity", "attribute", "pairs", "effects", "expect_order_on"});
+  const JsonObject object(root, {"name",
+                                 "title",
+                                 "description",
+                                 "scenes",
+                                 "methods",
+                                 "backends",
+                                 "views",
+                                 "image_size",
+                                 "sampling",
+                                 "images",
+                                 "reference_tolerance",
+                                 "reference_budget",
+                                 "limits",
+                                 "finest_limits",
+                                 "parity",
+                                 "attribute",
+                                 "pairs",
+                                 "effects",
+                                 "expect_order_on",
+                                 "paper",
+                                 "claims"});
   Experiment out;
   out.path = path;
   out.name = object.at("name").string();
@@ -199,6 +218,7 @@ Experiment parse_experiment(std::string_view text, const std::string& path) {
     for (const JsonNode& one : smooth->array())
       must_be_known(one, one.string(), "scene of this experiment", out.scenes);
   }
+  out.claims = parse_claims(object, out);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "harness/claims.h"
 #include "methods/method.h"
 
 namespace volumark {
@@ -49,6 +50,7 @@ struct Experiment {
   bool effects = false;    // each cell also with the scene's effects off, alone and left out: Results::effects
   // Scenes with fields so smooth that the methods' expected order of convergence must show.
   std::vector<std::string> expect_order_on;
+  Claims claims;  // of a paper, about these cells
 };
 
 // `path` is used in messages, and its stem must be the experiment's name. Throws SceneError.

@@ -14,6 +14,7 @@
 
 #include "harness/backend_parity.h"
 #include "harness/bad_news.h"
+#include "harness/claims.h"
 #include "harness/convergence.h"
 #include "harness/effect_rows.h"
 #include "harness/environment.h"
@@ -67,6 +68,15 @@ bool fit_together(const SceneContext& context, size_t cells) {
   if (cells < 2 || !context.scene.volume) return true;
   const auto texels = static_cast<double>(context.scene.volume->voxels.size());
   return 4 * texels * static_cast<double>(cells) < 0.25 * static_cast<double>(machine_info().ram_bytes);
+}
+
+std::vector<std::string> judged_backends(const Experiment& experiment, const CellFilter& filter) {
+  std::vector<std::string> out;
+  for (const std::string& backend : experiment.backends)
+    if (filter.backends.empty() ||
+        std::find(filter.backends.begin(), filter.backends.end(), backend) != filter.backends.end())
+      out.push_back(backend);
+  return out;
 }
 
 class Runner {
@@ -446,6 +456,8 @@ RunOutcome Runner::run() {
   sort_results();
   fit_convergence(out_.results, experiments_);
   explain_floors(out_.results);
+  for (const Experiment& experiment : experiments_)
+    judge_claims(out_.results, experiment.claims, experiment.name, judged_backends(experiment, options_.filter));
   out_.results.run.interrupted = out_.interrupted;
   if (!out_.interrupted) out_.results.run.finished_at = utc_now();
   out_.results.machine.load_after = load_average();

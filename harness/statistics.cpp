@@ -167,4 +167,13 @@ OrderFit fit_order(std::span<const double> steps, std::span<const double> errors
   return fit;
 }
 
+OrderFit fit_power(std::span<const double> steps, std::span<const double> values) {
+  OrderFit fit;
+  const auto usable = [](double value) { return value > 0 && std::isfinite(value); };
+  if (steps.size() >= 3 && std::all_of(steps.begin(), steps.end(), usable) &&
+      std::all_of(values.begin(), values.end(), usable))
+    fit_line(steps, values, fit);
+  return fit;
+}
+
 }  // namespace volumark

@@ -39,5 +39,7 @@ struct OrderFit {
 // whose local slopes agree within half an order (of equals the finest), among those before the error stops falling (a
 // local slope below 0.25) or reaches three times `noise` (the reference's bound).
 OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise);
+// value ~ step^order through all points; none (points: 0) for fewer than three or a number that is not above 0.
+OrderFit fit_power(std::span<const double> steps, std::span<const double> values);
 
 }  // namespace volumark

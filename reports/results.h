@@ -226,9 +226,11 @@ struct OrderInfo {
   std::optional<double> fitted;  // of the series that this cell belongs to
 };
 
+// What a paper prints for this cell. `rule` is always "absolute": figures of the paper's machine are shown, not judged.
 struct PaperCell {
-  std::string key, table, cell, unit, rule;
-  double published = 0;
+  std::string key, table, cell, unit, rule;  // key: of the paper; unit: frames/s, s, ms, bytes, KiB, MiB, or a word
+  double published = 0;                      // in `unit`; NaN: a plot without a number
+  std::string measure = "frame_wall";        // what of the cell stands beside it (reports/measures.h)
 };
 
 // One stage of a program as it runs: specialised, then optimised.
@@ -367,9 +369,15 @@ struct SensitivityRow {
   std::string reason;
 };
 
+// A claim of a paper, judged on one backend: holds where the interval of the measured value lies within the limits.
 struct Claim {
-  std::string id, text, rule, verdict, reason;  // verdict: holds, fails, unknown
-  double measured = 0, expected = 0;
+  std::string id, text, rule, verdict, reason;  // verdict: holds, fails, unknown, not_judged (rule absolute)
+  double measured = 0, expected = 0;            // NaN: nothing measured, nothing stated
+  std::string paper, experiment, backend;
+  std::string measure;                       // "frame_wall", "error.rmse per counter.slices", ...
+  double measured_lo = 0, measured_hi = 0;   // interval of the measured value
+  std::optional<double> limit_lo, limit_hi;  // what it must lie within; absent: no limit on that side
+  std::vector<CellKey> cells;                // that it was measured on
 };
 
 struct Results {

@@ -280,6 +280,7 @@ void fields(A& a, PaperCell& v) {
   a.field("unit", v.unit);
   a.field("rule", v.rule);
   a.field("published", v.published);
+  a.later("measure", v.measure);
 }
 
 template <class A>
@@ -351,6 +352,15 @@ void fields(A& a, Claim& v) {
   a.field("expected", v.expected);
   a.field("verdict", v.verdict);
   a.field("reason", v.reason);
+  a.later("paper", v.paper);
+  a.later("experiment", v.experiment);
+  a.later("backend", v.backend);
+  a.later("measure", v.measure);
+  a.later("measured_lo", v.measured_lo);
+  a.later("measured_hi", v.measured_hi);
+  a.field("limit_lo", v.limit_lo);
+  a.field("limit_hi", v.limit_hi);
+  a.later("cells", v.cells);
 }
 
 template <class A>

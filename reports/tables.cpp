@@ -11,6 +11,7 @@
 #include "reports/attribution_table.h"
 #include "reports/effects_table.h"
 #include "reports/pairs_table.h"
+#include "reports/paper_table.h"
 #include "reports/series_name.h"
 #include "reports/text_table.h"
 
@@ -181,8 +182,8 @@ std::string seconds_text(double seconds) {
 
 std::string tables_text(const Results& results) {
   return time_to_error_tables(results) + times_table(results) + empty_view_lines(results) + convergence_table(results) +
-         attribution_text(results) + pairs_text(results) + effects_table(results) + parity_lines(results) +
-         outcome_lines(results);
+         attribution_text(results) + pairs_text(results) + effects_table(results) + papers_text(results) +
+         parity_lines(results) + outcome_lines(results);
 }
 
 }  // namespace volumark
