@@ -73,17 +73,23 @@ void write(const Rgba& colour, const int32_t* fragments, size_t count, FragmentB
   }
 }
 
-template <class Volume, bool preintegrated, bool lit>
-void shade_as(const CpuBindings& bindings, FragmentBatch& batch) {
-  const RaycastBindings b(bindings);
-  const Volume volume(b);
+template <bool clip_planes>
+HWY_NOINLINE void set_up_batch(const VolumeUniforms& vm, FragmentBatch& batch, Rays& rays) {
   const Floats zero = splat(0.F);
-  Rays rays;
-  Queue queue;
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
-    set_up_rays<true>(b.vm, load(batch.varyings[0] + i), load(batch.varyings[1] + i), i, rays);
+    set_up_rays<clip_planes>(vm, load(batch.varyings[0] + i), load(batch.varyings[1] + i), i, rays);
     store_rgba(batch, i, {zero, zero, zero, zero});
   });
+}
+using SetUp = void (*)(const VolumeUniforms&, FragmentBatch&, Rays&);
+
+template <class Volume, bool preintegrated, bool lit>
+void shade_as(const CpuBindings& bindings, FragmentBatch& batch, SetUp set_up) {
+  const RaycastBindings b(bindings);
+  const Volume volume(b);
+  Rays rays;
+  Queue queue;
+  set_up(b.vm, batch, rays);
   queue_rays(batch, rays, queue);
   const size_t lanes = hn::Lanes(FloatTag());
   for (size_t first = 0; first < queue.count; first += lanes) {
@@ -93,27 +99,33 @@ void shade_as(const CpuBindings& bindings, FragmentBatch& batch) {
   }
 }
 
-template <bool preintegrated, bool lit>
+template <bool preintegrated, bool lit, bool clip_planes>
 void shade(const CpuBindings& bindings, FragmentBatch& batch) {
   const CpuTexture& texture = bindings.textures[1];
-  if (!fits_volume_view(texture)) return shade_as<AnyVolume, preintegrated, lit>(bindings, batch);
+  constexpr SetUp set_up = set_up_batch<clip_planes>;
+  if (!fits_volume_view(texture)) return shade_as<AnyVolume, preintegrated, lit>(bindings, batch, set_up);
   switch (texture.format) {
     case Format::R8:
-      return shade_as<FastVolume<Format::R8>, preintegrated, lit>(bindings, batch);
+      return shade_as<FastVolume<Format::R8>, preintegrated, lit>(bindings, batch, set_up);
     case Format::R16:
-      return shade_as<FastVolume<Format::R16>, preintegrated, lit>(bindings, batch);
+      return shade_as<FastVolume<Format::R16>, preintegrated, lit>(bindings, batch, set_up);
     default:
-      return shade_as<FastVolume<Format::R32F>, preintegrated, lit>(bindings, batch);
+      return shade_as<FastVolume<Format::R32F>, preintegrated, lit>(bindings, batch, set_up);
   }
+}
+
+template <bool clip_planes>
+CpuFragmentKernel shade_for(bool preintegrated, bool lit) {
+  if (preintegrated) return lit ? shade<true, true, clip_planes> : shade<true, false, clip_planes>;
+  return lit ? shade<false, true, clip_planes> : shade<false, false, clip_planes>;
 }
 
 CpuKernels specialise(std::span<const int32_t> constants) {
   const bool preintegrated = constants[0] == 2;
-  const bool lit = constants[2] > 0;
+  const bool lit = constants[2] > 0, clip_planes = constants[5] > 0;
   CpuKernels kernels;
   kernels.vertex = vertex;
-  kernels.fragment =
-      preintegrated ? (lit ? shade<true, true> : shade<true, false>) : (lit ? shade<false, true> : shade<false, false>);
+  kernels.fragment = clip_planes ? shade_for<true>(preintegrated, lit) : shade_for<false>(preintegrated, lit);
   kernels.varyings = 2;
   return kernels;
 }

@@ -43,22 +43,28 @@ void vertex(const CpuBindings&, VertexBatch& batch) {
 }
 
 // ---- Phase 1: coordinates ----
+// What a slab's segments are cut to: VM_CLIP_SLABS, and VM_CLIP_PLANES where it is on.
+enum Slab { kWhole, kInBox, kInBoxAndPlanes };
+
 // Whether the rays are inside of the volume over the whole slab: then there is nothing to clip, which is the rule.
+template <Slab slab>
 HWY_INLINE FloatMask inside(const VolumeUniforms& vm, const Floats3& box, const Floats3& direction, Floats reach) {
   const Floats half = splat(.5F);
   const auto within = [&](Floats p, Floats d)
                           HWY_ATTR { return hn::Le(hn::MulAdd(hn::Abs(d), reach, hn::Abs(hn::Sub(p, half))), half); };
   FloatMask in = hn::And(within(box.x, direction.x), within(box.y, direction.y));
   if (!defect(Defect::MissingFace)) in = hn::And(in, within(box.z, direction.z));
-  for (int i = 0; i < static_cast<int>(vm.counts[1]); ++i) {
-    const Floats3 normal = splat3(vm.clip_planes[i]);
-    const Floats nearest = hn::NegMulAdd(hn::Abs(dot(normal, direction)), reach, dot(normal, box));
-    in = hn::And(in, hn::Ge(nearest, splat(vm.clip_planes[i][3])));
+  if constexpr (slab == kInBoxAndPlanes) {
+    for (int i = 0; i < static_cast<int>(vm.counts[1]); ++i) {
+      const Floats3 normal = splat3(vm.clip_planes[i]);
+      const Floats nearest = hn::NegMulAdd(hn::Abs(dot(normal, direction)), reach, dot(normal, box));
+      in = hn::And(in, hn::Ge(nearest, splat(vm.clip_planes[i][3])));
+    }
   }
   return in;
 }
 
-template <bool clip_slabs, bool both_ends>
+template <Slab slab, bool both_ends>
 HWY_NOINLINE void locate(const VolumeUniforms& vm, const FragmentBatch& batch, Segments& out) {
   const Floats reach = splat(.5F * vm.depth[3]);
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
@@ -66,8 +72,8 @@ HWY_NOINLINE void locate(const VolumeUniforms& vm, const FragmentBatch& batch, S
     const Floats3 direction =
         along(along(splat3(vm.own[0]), load(batch.x + i), splat3(vm.own[1])), load(batch.y + i), splat3(vm.own[2]));
     Floats z0 = hn::Neg(reach), z1 = reach;
-    if (clip_slabs && !hn::AllTrue(FloatTag(), inside(vm, box, direction, reach))) {
-      clip_ray<true>(vm, box, direction, z0, z1);
+    if (slab != kWhole && !hn::AllTrue(FloatTag(), inside<slab>(vm, box, direction, reach))) {
+      clip_ray<slab == kInBoxAndPlanes>(vm, box, direction, z0, z1);
       const auto hits = hn::Lt(z0, z1);
       z0 = hn::IfThenElseZero(hits, z0);
       z1 = hn::IfThenElseZero(hits, z1);
@@ -140,11 +146,11 @@ HWY_NOINLINE void shade_segments(const VolumeBindings& b, const Segments& s, con
 
 enum Classify { kPost, kPre, kPreintegrated };  // VM_CLASSIFICATION
 
-template <Classify classification, bool linear_opacity, bool lit, bool clip_slabs>
+template <Classify classification, bool linear_opacity, bool lit, Slab slab>
 void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
   const VolumeBindings b(bindings);
   Segments segments;
-  locate<clip_slabs, classification == kPreintegrated>(b.vm, batch, segments);
+  locate<slab, classification == kPreintegrated>(b.vm, batch, segments);
   alignas(64) float values[2][kMaxBatch + kBatchPadding];
   if constexpr (classification == kPost) {
     fetch(b, segments.middle, batch.count, values[0]);
@@ -159,32 +165,38 @@ void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
 }
 
 template <Classify classification, bool linear_opacity, bool lit>
-CpuFragmentKernel with_slabs(bool clip_slabs) {
-  return clip_slabs ? fragment<classification, linear_opacity, lit, true>
-                    : fragment<classification, linear_opacity, lit, false>;
+CpuFragmentKernel with_slabs(Slab slab) {
+  switch (slab) {
+    case kWhole:
+      return fragment<classification, linear_opacity, lit, kWhole>;
+    case kInBox:
+      return fragment<classification, linear_opacity, lit, kInBox>;
+    default:
+      return fragment<classification, linear_opacity, lit, kInBoxAndPlanes>;
+  }
 }
 template <bool linear_opacity>
-CpuFragmentKernel with_classification(int classification, bool lit, bool clip_slabs) {
+CpuFragmentKernel with_classification(int classification, bool lit, Slab slab) {
   switch (classification) {
     case kPost:
-      return lit ? with_slabs<kPost, linear_opacity, true>(clip_slabs)
-                 : with_slabs<kPost, linear_opacity, false>(clip_slabs);
+      return lit ? with_slabs<kPost, linear_opacity, true>(slab) : with_slabs<kPost, linear_opacity, false>(slab);
     case kPre:
-      return with_slabs<kPre, linear_opacity, false>(clip_slabs);
+      return with_slabs<kPre, linear_opacity, false>(slab);
     default:
-      return lit ? with_slabs<kPreintegrated, linear_opacity, true>(clip_slabs)
-                 : with_slabs<kPreintegrated, linear_opacity, false>(clip_slabs);
+      return lit ? with_slabs<kPreintegrated, linear_opacity, true>(slab)
+                 : with_slabs<kPreintegrated, linear_opacity, false>(slab);
   }
 }
 
 // Constants in the order of their ids: volume_common.glsl, then VM_CLIP_SLABS.
 CpuKernels specialise(std::span<const int32_t> constants) {
   const int classification = constants[0];
-  const bool linear_opacity = constants[1] != 0, lit = constants[2] > 0, clip_slabs = constants[6] != 0;
+  const bool linear_opacity = constants[1] != 0, lit = constants[2] > 0;
+  const Slab slab = constants[6] == 0 ? kWhole : constants[5] > 0 ? kInBoxAndPlanes : kInBox;
   CpuKernels kernels;
   kernels.vertex = vertex;
-  kernels.fragment = linear_opacity ? with_classification<true>(classification, lit, clip_slabs)
-                                    : with_classification<false>(classification, lit, clip_slabs);
+  kernels.fragment = linear_opacity ? with_classification<true>(classification, lit, slab)
+                                    : with_classification<false>(classification, lit, slab);
   kernels.varyings = 3;
   return kernels;
 }
