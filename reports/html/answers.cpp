@@ -231,7 +231,7 @@ std::string effects_answer(const Model& model) {
         "class=\"num\">{}"
         "</td><td class=\"num\">{}</td><td class=\"num\">{}</td></tr>",
         backend, escape(row->key.scene), escape(row->key.method), escape(row->effect), stats_text(row->with),
-        stats_text(row->without), change_text(*row), instructions_text(*row));
+        stats_text(row->without), change_text(model.results, *row), instructions_text(*row));
   }
   return out +
          "<p class=\"hint\">Milliseconds a frame, and instructions of the compiled programs, with the effect and "

@@ -135,7 +135,7 @@ std::string attribution_part(const Model& model, const Block& block) {
   return "<h4>Where the error comes from</h4><p class=\"hint\">Share of the squared error (RMSE&sup2;, worst view) "
          "that goes away when one thing is made ideal and all else stays. The line marks 100 %. Shares need not add up "
          "to it: errors overlap. To the left of zero: making it ideal makes the error larger, because two errors had "
-         "cancelled.</p><ul class=\"legend\" aria-label=\"Legend\">" +
+         "cancelled (an arrow: by more than the bar shows).</p><ul class=\"legend\" aria-label=\"Legend\">" +
          legend + "</ul><ul class=\"bars attribution\">" + bars + "</ul>" +
          folded("Table: what each is worth", table_text("Attribution",
                                                         {{"cell", false},

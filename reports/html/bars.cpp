@@ -39,22 +39,28 @@ std::string swatch(size_t pattern) {
 std::string stacked_bar(const std::vector<Segment>& segments) {
   double below = 0, above = 0;
   for (const Segment& segment : segments) (segment.share < 0 ? below : above) += std::abs(segment.share);
+  const bool cut = below > 1;  // where errors cancel, a part can be worth many times -100 %
+  below = std::min(below, 1.0);
   const double whole = below + std::max(above, 1.0);
   auto place = [&](double value) { return 100 * (below + value) / whole; };
   std::string out = "<span class=\"stack\" aria-hidden=\"true\">";
   double right = 0, left = 0;
   for (const Segment& segment : segments) {
-    const double size = std::abs(segment.share);
-    if (segment.share < 0) left -= size;
+    double size = std::abs(segment.share);
+    if (segment.share < 0) {
+      size = std::min(size, below + left);
+      left -= size;
+    }
     const double from = segment.share < 0 ? left : right;
     if (segment.share >= 0) right += size;
+    if (size <= 0) continue;
     out += fmt::format("<span class=\"fill p{}\" style=\"left:{:.3f}%;width:{:.3f}%\" title=\"{}\">{}</span>",
                        segment.pattern % kPatterns, place(from), 100 * size / whole, escape(segment.title),
                        size / whole > kNarrow ? "<b>" + escape(segment.letter) + "</b>" : "");
   }
   out += fmt::format("<i class=\"at-one\" style=\"left:{:.3f}%\"></i>", place(1));
   if (below > 0) out += fmt::format("<i class=\"at-zero\" style=\"left:{:.3f}%\"></i>", place(0));
-  return out + "</span>";
+  return out + (cut ? "<b class=\"cut\">&#9666;</b>" : "") + "</span>";
 }
 
 }  // namespace volumark::html

@@ -23,7 +23,8 @@ struct Segment {
   size_t pattern = 0;
   std::string letter, title;
 };
-// Positive parts one after another from zero to the right, negative ones to the left; a line marks 1.
+// Positive parts one after another from zero to the right, negative ones to the left, where the bar is cut at -1 and an
+// arrow says so; a line marks 1.
 std::string stacked_bar(const std::vector<Segment>& segments);
 
 }  // namespace volumark::html

@@ -31,7 +31,17 @@ std::vector<const EffectRow*> one_row_an_effect(const Results& results) {
 
 std::string stats_text(const Stats& stats) { return stats.count > 0 ? milliseconds(stats.median) : "-"; }
 
-std::string change_text(const EffectRow& row) {
+bool is_ignored(const Results& results, const EffectRow& row) {
+  return std::any_of(results.results.begin(), results.results.end(), [&](const Result& cell) {
+    return cell.key.experiment == row.key.experiment && cell.key.scene == row.key.scene &&
+           cell.key.method == row.key.method && cell.key.backend == row.key.backend &&
+           std::find(cell.ignored_effects.begin(), cell.ignored_effects.end(), row.effect) !=
+               cell.ignored_effects.end();
+  });
+}
+
+std::string change_text(const Results& results, const EffectRow& row) {
+  if (is_ignored(results, row)) return "ignored";
   if (row.with.count == 0 || row.without.count == 0 || !(row.without.median > 0)) return "-";
   if (!row.time_differs) return "within noise";
   return fmt::format("{:+.0f} %", 100 * (row.with.median / row.without.median - 1));

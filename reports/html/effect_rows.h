@@ -14,8 +14,10 @@ std::vector<std::string> effect_backends(const Results& results);  // in order o
 // else alone.
 std::vector<const EffectRow*> one_row_an_effect(const Results& results);
 
-std::string stats_text(const Stats& stats);           // median in ms, or "-"
-std::string change_text(const EffectRow& row);        // "+22 %", "within noise"
-std::string instructions_text(const EffectRow& row);  // "412 / 388", or "-"
+std::string stats_text(const Stats& stats);  // median in ms, or "-"
+// The method left the effect out (--ignore-effects): with and without are the same picture.
+bool is_ignored(const Results& results, const EffectRow& row);
+std::string change_text(const Results& results, const EffectRow& row);  // "+22 %", "within noise", "ignored"
+std::string instructions_text(const EffectRow& row);                    // "412 / 388", or "-"
 
 }  // namespace volumark::html

@@ -27,7 +27,7 @@ std::string interval(const Stats& stats) {
 }
 
 // Times and instructions of one scene; all its bars have one scale.
-std::string bars_of(const std::vector<const EffectRow*>& rows) {
+std::string bars_of(const Results& results, const std::vector<const EffectRow*>& rows) {
   double slowest = 0, longest = 0;
   for (const EffectRow* row : rows) {
     slowest = std::max({slowest, row->with.median, row->without.median});
@@ -39,7 +39,7 @@ std::string bars_of(const std::vector<const EffectRow*>& rows) {
   std::string out;
   for (const EffectRow* row : rows) {
     out += "<li><p><b>" + escape(row->effect) + "</b> " + escape(row->key.method) + " on " + escape(row->key.backend) +
-           " <span class=\"dim change\">" + change_text(*row) + "</span></p>" +
+           " <span class=\"dim change\">" + change_text(results, *row) + "</span></p>" +
            bar(time(row->with), 0, interval(row->with)) + bar(time(row->without), 1, interval(row->without));
     // The same on every backend: once is enough.
     const bool counted = std::any_of(rows.begin(), rows.end(), [&](const EffectRow* other) {
@@ -91,7 +91,7 @@ std::string variant_pictures(const Model& model, const PictureBook& book, const 
           key.variant.empty()     ? "as the scene is"
           : key.variant == "none" ? "no effect"
                                   : escape(key.variant),
-          escape(key.method), escape(key.backend));
+          escape(key.method), escape(key.backend) + picture_badges(model.results.results[entry->cell]));
     }
   }
   return out.empty()
@@ -111,7 +111,7 @@ std::string table_rows(const Model& model) {
             : row.mode == "leave_one_out" ? "all but it"
                                           : escape(row.mode)) +
            "</td>" + figure(interval(row.with), row.with.median) + figure(interval(row.without), row.without.median) +
-           "<td>" + change_text(row) + "</td>" + figure(scientific(row.rmse), row.rmse) +
+           "<td>" + change_text(model.results, row) + "</td>" + figure(scientific(row.rmse), row.rmse) +
            figure(number(row.flip_p99), row.flip_p99) + "<td class=\"num\">" + instructions_text(row) + "</td></tr>";
   }
   return out;
@@ -132,7 +132,7 @@ std::string effects_section(const Model& model, const PictureBook& book) {
     std::vector<const EffectRow*> rows;
     std::copy_if(once.begin(), once.end(), std::back_inserter(rows),
                  [&](const EffectRow* row) { return row->key.scene == scene; });
-    out += "<div class=\"card effect\"><h3>" + escape(scene) + "</h3>" + bars_of(rows) +
+    out += "<div class=\"card effect\"><h3>" + escape(scene) + "</h3>" + bars_of(model.results, rows) +
            variant_pictures(model, book, scene) +
            command_box("volumark run " + rows.front()->key.experiment + " --scene " + scene) + "</div>";
   }

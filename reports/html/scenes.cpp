@@ -62,14 +62,6 @@ std::string bound_text(const Model& model, const PictureEntry& entry) {
   return view.reference ? scientific(view.reference->bound) : "not stated";
 }
 
-std::string picture_badges(const Result& result) {
-  std::string out;
-  for (const std::string& effect : result.ignored_effects)
-    out += "<span class=\"badge bad\">" + escape(effect) + " ignored</span>";
-  if (shows_nothing(result)) out += "<span class=\"badge neutral\">shows nothing</span>";
-  return out;
-}
-
 // The picture of the most accurate cell of each row, beside the reference.
 std::string thumbs(const Model& model, const Block& block, const PictureBook& book) {
   std::string out;
@@ -129,6 +121,14 @@ constexpr const char* kFrontChoice =
     "backend</label>";
 
 }  // namespace
+
+std::string picture_badges(const Result& result) {
+  std::string out;
+  for (const std::string& effect : result.ignored_effects)
+    out += "<span class=\"badge bad\">" + escape(effect) + " ignored</span>";
+  if (shows_nothing(result)) out += "<span class=\"badge neutral\">shows nothing</span>";
+  return out;
+}
 
 std::string block_command(const Model& model, const Block& block) {
   std::string out = "volumark run " + quoted(block.experiment) + " --scene " + quoted(block.scene);

@@ -35,6 +35,8 @@ std::string environment_section(const Model& model);
 std::string missing_text(const std::string& what, const std::string& command);
 std::string software_tag(const Model& model, const std::string& backend);
 std::string command_box(const std::string& command);  // with a button that copies it
+// Of a picture that lacks effects, or shows nothing; empty for any other.
+std::string picture_badges(const Result& result);
 std::string verdict_badge(const std::string& verdict);
 // A table in a frame that scrolls sideways; columns: heading (HTML) and whether it holds numbers. With "sortable" among
 // the classes the headings sort it.
