@@ -36,6 +36,9 @@ enum class Defect {
   UnboundedNormal,
   OrderIgnored,
   LostEdge,
+  WrongStack,
+  ForgottenGutter,
+  EyeForgotten,
 };
 
 #ifdef VOLUMARK_DEFECTS

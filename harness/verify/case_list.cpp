@@ -57,6 +57,8 @@ std::span<const HardCase> hard_case_list() {
       {"octree_refinement", "20", "T-vertices and jumps of level", "needs an octree", CaseNeeds::Absent, nullptr},
       {"eye_and_ties", "21", "Eye on a slice and inside the volume, views at 45 degrees", "1 - exp(-tau chord)",
        CaseNeeds::Method, eye_and_ties},
+      {"order_around_eye", "21", "Colours in order, the eye between the slices that it sees",
+       "the integral of a colour linear along the ray", CaseNeeds::Method, order_around_eye},
       {"spherical_domain", "22", "Poles, date line, eye inside", "needs the effect spherical_domain", CaseNeeds::Absent,
        nullptr},
       {"refused_data", "23", "Not a number, infinity, short files", "a refusal that says why", CaseNeeds::Host,

@@ -39,6 +39,7 @@ void early_end(CaseRun& run);
 // lattices.cpp
 void lit_gradient(CaseRun& run);
 void voxel_types(CaseRun& run);
+void order_around_eye(CaseRun& run);
 // agreement.cpp
 void agreement(CaseRun& run);
 

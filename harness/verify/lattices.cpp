@@ -131,4 +131,37 @@ void voxel_types(CaseRun& run) {
   run.add_equal("i16 as f32", picture(scene_as(VoxelType::I16, -128)), expected, 256 * 0x1p-23, source);
 }
 
+void order_around_eye(CaseRun& run) {
+  // Thin slices across z, the eye beside the box and between its lowest and highest slice: it sees some from below and
+  // some from above. One extinction; the colour is linear in z, so that a ray's light has a closed form.
+  constexpr double kTau = 1.5, kStep = 2. / 32;
+  std::vector<float> values;
+  for (int k = 0; k < 33; ++k) values.insert(values.end(), 81, static_cast<float>(k) / 32);
+  const Scene scene = scene_of(volume_of(values, {9, 9, 33}, {0.25, 0.25, kStep}),
+                               transfer_of({{0, {1, 0, 0}, kTau}, {1, {0, 1, 0}, kTau}}));
+  const View view = perspective({1.5, 0.1, 0.9}, {0, 0, 0}, 1.2);
+  const glm::dvec3 forward = frame_of(view).forward;
+  const Image image = run.draw(scene, run.stepped(1), view, kSize, kSize);
+  run.add_picture(
+      "eye beside the box, between its slices", image,
+      "a midpoint in segments across the view or across z: slope tau d^2 / 12 of light, at most half of its change; "
+      "faces moved by 2^-20 of the box",
+      [&](int x, int y, int channel) {
+        const Ray ray = pixel_ray(view, kSize, kSize, x, y);
+        const Chord chord = box_chord(ray, glm::dvec3(1));
+        const double length = chord.length(), through = std::exp(-kTau * length);
+        if (channel == 2 || length == 0) return within(0, 0);
+        const double grown = box_chord(ray, glm::dvec3(1 + 2 * 0x1p-20)).length() - length;
+        const double moved = kTau * grown + 60 * 0x1p-23;
+        if (channel == 3) return within(1 - through, moved);
+        const double rise = 0.5 * ray.direction.z, z0 = ray.origin.z + chord.t0 * ray.direction.z;
+        const double first = 0.5 + 0.5 * z0;  // green where the ray enters
+        const double green = first * (1 - through) + rise * (1 - through * (1 + kTau * length)) / kTau;
+        const auto midpoint = [&](double segment) { return std::abs(rise) * kTau * segment * segment / 12 * 1.2; };
+        const double across_view = midpoint(kStep / glm::dot(ray.direction, forward));
+        const double across_z = std::min(midpoint(kStep / std::max(std::abs(ray.direction.z), 1e-9)), 0.25 * kStep);
+        return within(channel == 1 ? green : 1 - through - green, std::max(across_view, across_z) + moved + 0x1p-19);
+      });
+}
+
 }  // namespace volumark::hard_cases

@@ -6,18 +6,17 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "backends/defects.h"
+
 namespace volumark {
 namespace {
 
-// Towards which end of the stack the views runs; the eye's place in the stack (box coordinate) in perspective.
-struct Sight {
-  double eye = 0;  // slices above are drawn downwards, slices below upwards
-};
-
-Sight sight_of(const ViewRays& rays, const glm::dvec3& extent) {
-  if (rays.perspective) return {rays.eye.z / extent.z + 0.5};
+// The eye's place in the stack (box coordinate), beyond one of its ends in orthographic views: slices above it are
+// drawn downwards, slices below it upwards.
+double eye_in_stack(const ViewRays& rays, const glm::dvec3& extent) {
+  if (rays.perspective && !defect(Defect::EyeForgotten)) return rays.eye.z / extent.z + 0.5;
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  return {rays.forward.z > 0 ? -kFar : kFar};
+  return rays.forward.z > 0 ? -kFar : kFar;
 }
 
 // The edges of the box between two planes across the stack, as far as they lie in front of the near plane.
@@ -86,7 +85,7 @@ Slices slices_of(int stored, int64_t percent) {
 
 std::vector<SliceGroup> slice_groups(const Slices& slices, const StackLayout& layout, const ViewRays& rays,
                                      const glm::dvec3& extent, int textures) {
-  const Sight sight = sight_of(rays, extent);
+  const double eye = eye_in_stack(rays, extent);
   std::vector<SliceGroup> groups;
   const auto add = [&](int slice, int direction) {
     const int page = page_of(slices, layout, slice);
@@ -101,7 +100,7 @@ std::vector<SliceGroup> slice_groups(const Slices& slices, const StackLayout& la
     groups.push_back({slice, direction, 1, page});
   };
   int below = 0;  // slices whose slab begins below the eye: drawn upwards, the one that holds the eye last
-  while (below < slices.count && slices.position(below - 0.5) < sight.eye) ++below;
+  while (below < slices.count && slices.position(below - 0.5) < eye) ++below;
   for (int k = slices.count - 1; k >= below; --k) add(k, -1);
   for (int k = 0; k < below; ++k) add(k, 1);
   return groups;

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/geometric.hpp>
 
+#include "backends/defects.h"
 #include "methods/volume/volume_texels.h"
 
 namespace volumark {
@@ -35,7 +36,7 @@ std::vector<std::byte> page_texels(const StackLayout& layout, const StackPage& p
           out.data() +
           (static_cast<size_t>(corner.y + y) * static_cast<size_t>(extent.x) + static_cast<size_t>(corner.x)) * texel;
       for (int x = 0; x < tile.x; ++x, to += texel) {
-        const int from_x = std::clamp(x - 1, 0, layout.slice.x - 1);
+        const int from_x = std::clamp(x - (defect(Defect::ForgottenGutter) ? 0 : 1), 0, layout.slice.x - 1);
         std::memcpy(to, row + static_cast<size_t>(from_x) * along_x, texel);
       }
     }
@@ -131,7 +132,7 @@ int best_stack(const Volume& volume, const ViewRays& rays) {
   const glm::dvec3 score = glm::abs(glm::normalize(main_direction(volume, rays))) / volume.spacing;
   int best = 2;
   for (const int axis : {1, 0})
-    if (score[axis] > score[best] * (1 + 1e-9)) best = axis;
+    if ((score[axis] > score[best] * (1 + 1e-9)) != defect(Defect::WrongStack)) best = axis;
   return best;
 }
 

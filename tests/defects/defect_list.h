@@ -55,6 +55,11 @@ inline constexpr std::array kPlantedDefects = {
                   "l + v of the specular term not normalised", ""},
     PlantedDefect{Defect::UnboundedNormal, "unbounded normal", "a vanishing gradient is divided by its length", ""},
     PlantedDefect{Defect::OrderIgnored, "order ignored", "front to back draws back to front", "texture3d_slices"},
+    PlantedDefect{Defect::WrongStack, "wrong stack", "the stack of slices is the one seen most from the side",
+                  "slices2d"},
+    PlantedDefect{Defect::ForgottenGutter, "forgotten gutter", "tiles lie one texel off their place", "slices2d"},
+    PlantedDefect{Defect::EyeForgotten, "eye forgotten",
+                  "slices on the other side of the eye are drawn in the order of those before it", "slices2d"},
     PlantedDefect{Defect::LostEdge, "lost edge", "the fill rule counts pixels on a shared edge never",
                   "texture3d_slices"},
 };

@@ -43,7 +43,7 @@ std::vector<HardCaseRow> broken_rows(const PlantedDefect* planted) {
   options.data = data_options_from_environment();
   for (const HardCase& hard_case : hard_case_list())
     if (takes_part(hard_case)) options.cases.push_back(hard_case.id);
-  options.methods = {"texture3d_slices", "raycast"};  // those whose files are planted
+  options.methods = {"texture3d_slices", "raycast", "slices2d"};  // those whose files are planted
   if (planted != nullptr && planted->method[0] != '\0') options.methods = {planted->method};
   std::vector<HardCaseRow> rows = run_hard_cases(options);
   std::erase_if(rows, [](const HardCaseRow& row) { return !broken(row); });
