@@ -46,6 +46,8 @@ class Judge {
 
   // Sets measured, its interval and the cells; throws NotComparable.
   void measure(Claim& claim) const;
+  // Each cell of `of`, by name.
+  std::vector<std::pair<std::string, Measured>> cells() const;
   // Of order: whether every pair stands as claimed. Fills the claim as measure() does.
   void compare(Claim& claim) const;
 
@@ -126,6 +128,13 @@ Measured Judge::exponent() const {
     out.lo += fit.lo / count;
     out.hi += fit.hi / count;
   }
+  return out;
+}
+
+std::vector<std::pair<std::string, Measured>> Judge::cells() const {
+  std::vector<std::pair<std::string, Measured>> out;
+  for (const Result* result : chosen(spec_.of))
+    out.emplace_back(short_name(result->key, spec_.of), value_of(*result, spec_.of));
   return out;
 }
 
@@ -226,6 +235,24 @@ void decide(const ClaimSpec& spec, Claim& claim) {
   }
 }
 
+// Cells apart, each within the limits or not: no mean may hide one of them.
+void decide_each(const ClaimSpec& spec, const std::vector<std::pair<std::string, Measured>>& cells, Claim& claim) {
+  std::string outside, straddling;
+  const auto add = [](std::string& list, const std::string& name) { list += (list.empty() ? "" : "; ") + name; };
+  for (const auto& [name, value] : cells) {
+    Claim one;
+    put(one, value);
+    decide(spec, one);
+    if (one.verdict == "fails") add(outside, name + ": " + one.reason);
+    if (one.verdict == "unknown") add(straddling, name + ": " + one.reason);
+  }
+  claim.verdict = !outside.empty() ? "fails" : !straddling.empty() ? "unknown" : "holds";
+  const std::string mean = claim.reason;
+  claim.reason = !outside.empty()      ? outside
+                 : !straddling.empty() ? straddling
+                                       : "each is within " + limits_text(spec) + (mean.empty() ? "" : "; " + mean);
+}
+
 std::string measure_text(const ClaimSpec& spec) {
   std::string out = spec.of.measure.empty() ? spec.measure : spec.of.measure;
   if (!spec.per.empty()) out += " per " + spec.per;
@@ -292,7 +319,9 @@ Claim judge(const ClaimSpec& spec, const std::string& paper, const std::string& 
       judge.compare(claim);
     } else {
       judge.measure(claim);
-      if (spec.rule != ClaimRule::Absolute) decide(spec, claim);
+      const bool each = spec.rule == ClaimRule::Shape && spec.over.empty() && claim.cells.size() > 1;
+      if (each) decide_each(spec, judge.cells(), claim);
+      if (!each && spec.rule != ClaimRule::Absolute) decide(spec, claim);
     }
     if (spec.rule == ClaimRule::Absolute) {
       claim.verdict = "not_judged";

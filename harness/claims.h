@@ -25,7 +25,8 @@ const char* to_string(ClaimRule rule);  // exact, ratio, order, shape, absolute
 // exact     of = expected, in every cell
 // ratio     of / against within the limits; several pairs: geometric mean
 // order     of < against, pair by pair
-// shape     of, or the exponent of of ~ over^p where `over` names a numeric parameter, within the limits
+// shape     of, in every cell, within the limits; or the exponent of of ~ over^p, where `over` names a numeric
+//           parameter
 // absolute  of, or of / against: shown, never judged
 struct ClaimSpec {
   std::string id, text;
