@@ -164,6 +164,12 @@ void Judge::measure(Claim& claim) const {
                  return std::abs(a.value - spec_.expected) < std::abs(b.value - spec_.expected);
                }));
   }
+  if (!spec_.against && std::any_of(values.begin(), values.end(), [](const Measured& v) { return !(v.lo > 0); })) {
+    put(claim, *std::max_element(values.begin(), values.end(),
+                                 [](const Measured& a, const Measured& b) { return a.value < b.value; }));
+    claim.reason = fmt::format("largest of {} cells", values.size());  // a 0 has no geometric mean
+    return;
+  }
   // The ends of the interval are combined as if all were at their ends at once: never too narrow.
   Measured mean{0, 0, 0};
   const auto count = static_cast<double>(values.size());

@@ -101,11 +101,13 @@ std::string claims_tile(const Results& results) {
   if (results.claims.empty()) return "";
   std::map<std::string, int> counts;
   for (const Claim& claim : results.claims) ++counts[claim.verdict];
-  return tile(counts["fails"] > 0     ? "bad"
-              : counts["unknown"] > 0 ? "warn"
-                                      : "good",
-              "claims", "Claims", fmt::format("{} of {} hold", counts["holds"], results.claims.size()),
-              fmt::format("{} fail, {} unknown", counts["fails"], counts["unknown"]));
+  return tile(
+      counts["fails"] > 0     ? "bad"
+      : counts["unknown"] > 0 ? "warn"
+                              : "good",
+      "claims", "Claims",
+      fmt::format("{} of {} reproduced", counts["holds"], counts["holds"] + counts["fails"] + counts["unknown"]),
+      fmt::format("{} not reproduced, {} not comparable here", counts["fails"], counts["unknown"]));
 }
 
 std::string item(const std::string& name, const std::string& value) {

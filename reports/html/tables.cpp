@@ -1,4 +1,4 @@
-// The tables below the scenes: problems, every cell, parity, claims, self-test.
+// The tables below the scenes: problems, every cell, parity, self-test.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -79,9 +79,9 @@ std::string command_box(const std::string& command) {
 }
 
 std::string verdict_badge(const std::string& verdict) {
-  const bool good = verdict == "pass" || verdict == "ok" || verdict == "holds";
-  const bool bad = verdict == "fail" || verdict == "failed" || verdict == "fails" || verdict == "wrong_image" ||
-                   verdict == "timeout" || verdict == "differs";
+  const bool good = verdict == "pass" || verdict == "ok" || verdict == "reproduced";
+  const bool bad = verdict == "fail" || verdict == "failed" || verdict == "not reproduced" ||
+                   verdict == "wrong_image" || verdict == "timeout" || verdict == "differs";
   return fmt::format("<span class=\"badge {}\">{}</span>", good ? "good" : bad ? "bad" : "neutral", escape(verdict));
 }
 
@@ -204,28 +204,6 @@ std::string parity_table(const Model& model) {
                {"verdict", false}},
               true) +
          "<tbody>" + rows + "</tbody></table></div>";
-}
-
-std::string claims_table(const Model& model) {
-  if (model.results.claims.empty()) return "";
-  std::string rows;
-  for (const Claim& claim : model.results.claims)
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"num\">{}</td><td class=\"num\">"
-        "{}</td><td>{}</td><td>{}</td></tr>",
-        escape(claim.id), escape(claim.text), escape(claim.rule), number(claim.measured), number(claim.expected),
-        verdict_badge(claim.verdict), escape(claim.reason));
-  return "<section id=\"claims\"><h2>Claims of the papers</h2><div class=\"scroll\" tabindex=\"0\" role=\"group\" "
-         "aria-label=\"Claims\"><table class=\"wide\">" +
-         head({{"claim", false},
-               {"text", false},
-               {"rule", false},
-               {"measured", true},
-               {"expected", true},
-               {"verdict", false},
-               {"reason", false}},
-              false) +
-         "<tbody>" + rows + "</tbody></table></div></section>";
 }
 
 std::string self_test_table(const Model& model) {

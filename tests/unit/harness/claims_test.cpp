@@ -154,6 +154,15 @@ TEST_F(ClaimTest, ShapeIsJudgedCellByCell) {
   EXPECT_EQ(judged(claim).reason.find("a slices2d"), std::string::npos) << judged(claim).reason;
 }
 
+TEST_F(ClaimTest, AZeroAmongCellsIsNoObstacle) {
+  ClaimSpec claim = spec(ClaimRule::Shape);
+  claim.limit_hi = 2;
+  add("a", 100, "1", 0, 0);
+  add("b", 100, "1", 1, 1);
+  EXPECT_EQ(judged(claim).verdict, "holds");
+  EXPECT_EQ(judged(claim).measured, 1);
+}
+
 TEST_F(ClaimTest, ErrorsHaveTheReferencesBound) {
   Result& result = add("a", 100, "1", 1, 1);
   result.error.emplace().worst.rmse = 1e-3;
