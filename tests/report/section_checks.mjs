@@ -58,6 +58,21 @@ const metricSwitch = async ({ browser }) => {
   assert.deepEqual(await shown(), [true, false]);
 };
 
+// Published cells and claims, by paper; the ratio as worked out here.
+const papers = async ({ browser, results }) => {
+  const rows = await browser.run(`return [...document.querySelectorAll('#claims tbody tr')].map((row) =>
+    [...row.querySelectorAll('th, td')].map((e) => e.textContent.trim()))`);
+  const cell = results.results.find(({ paper }) => paper);
+  const ours = 1 / cell.metrics.frame_wall.stats.median;
+  const published = rows.find((row) => row[0] === 'Table <1>');
+  assert.deepEqual(published.slice(4), ['frames/s', number(8), number(ours), number(ours / 8)]);
+  const judged = rows.find((row) => row[0] === 'P1');
+  assert.deepEqual([judged[1], judged[5], judged[6], judged[7]], ['Twice <as fast>', '1.25 [1.20, 1.30]', '1.80 to 2.20', 'not reproduced']);
+  assert.equal(rows.find((row) => row[0] === 'P2')[7], 'not judged');
+  assert.equal(rows.find((row) => row[0] === 'c1')[7], 'reproduced', 'of a file that names no paper');
+  assert.match(await text(browser, '#claims h3'), /someone2000/);
+};
+
 const stabilityLine = async ({ browser, results }) => {
   const line = await text(browser, '#answer-stability .line');
   const rows = results.hard_cases.filter(({ outcome }) => outcome !== 'not_applicable');
@@ -282,6 +297,7 @@ export const sectionChecks = [
   ['first screen: least times over the backends', leastTimes],
   ['first screen: RMSE or FLIP, by keys', metricSwitch],
   ['first screen: the stability line, in words and symbols', stabilityLine],
+  ['papers: published cells and claims', papers],
   ['first screen: what effects cost, by backend', effectCosts],
   ['attribution: bars as wide as the shares, patterns, notes', attribution],
   ['methods against methods: verdicts on both sides', matrix],

@@ -143,7 +143,39 @@ void Maker::describe() {
                                 {}});
   for (const SelfTest& row : metric_self_test())
     results.self_test.push_back({"metric", row.name, "", row.expected, row.measured, row.tolerance, row.pass()});
-  results.claims = {{"c1", "Slices are <faster>", "ratio > 1", "holds", "", 1.4, 1}};
+  results.claims = {{"c1", "Slices are <faster>", "ratio > 1", "holds", "", 1.4, 1},
+                    {"P1",
+                     "Twice <as fast>",
+                     "ratio",
+                     "fails",
+                     "outside",
+                     1.25,
+                     2,
+                     "someone2000",
+                     "quick",
+                     "gl",
+                     "frame_wall, ratio",
+                     1.2,
+                     1.3,
+                     1.8,
+                     2.2,
+                     {}},
+                    {"P2",
+                     "Shown",
+                     "absolute",
+                     "not_judged",
+                     "",
+                     3,
+                     4,
+                     "someone2000",
+                     "quick",
+                     "cpu",
+                     "frame_wall",
+                     3,
+                     3,
+                     {},
+                     {},
+                     {}}};
 }
 
 ViewResult Maker::view(int scene, const Result& result, const Technique& technique, double step, int index, int seed) {
@@ -229,6 +261,7 @@ void Maker::odd_cells() {
   add(0, Outcome::Unsupported, "null", "effect lighting: the null backend draws nothing <img src=x onerror=alert(1)>");
   add(1, Outcome::Failed, "null2", "out of memory");
   add(2, Outcome::Timeout, "null3", "60 s were spent");
+  results.results[3].paper = PaperCell{"someone2000", "Table <1>", "slices", "frames/s", "absolute", 8};
   Result& wrong = results.results[0];
   wrong.outcome = Outcome::WrongImage;
   wrong.reason = "rmse 0.08 is above the limit 0.05";
