@@ -227,17 +227,19 @@ void decide(const ClaimSpec& spec, Claim& claim) {
   }
   const double lo = spec.limit_lo.value_or(-std::numeric_limits<double>::infinity());
   const double hi = spec.limit_hi.value_or(std::numeric_limits<double>::infinity());
-  const std::string interval = fmt::format("{:.4g}..{:.4g}", claim.measured_lo, claim.measured_hi);
+  const std::string interval = claim.measured_lo == claim.measured_hi
+                                   ? fmt::format("{:.4g}", claim.measured)
+                                   : fmt::format("{:.4g}..{:.4g}", claim.measured_lo, claim.measured_hi);
   const std::string limits = limits_text(spec);
   if (claim.measured_lo >= lo && claim.measured_hi <= hi) {
     claim.verdict = "holds";
-    claim.reason = fmt::format("{} is within {}{}", interval, limits, how);
+    claim.reason = fmt::format("{}, as it must be: {}{}", interval, limits, how);
   } else if (claim.measured_hi < lo || claim.measured_lo > hi) {
     claim.verdict = "fails";
-    claim.reason = fmt::format("{} is outside {}{}", interval, limits, how);
+    claim.reason = fmt::format("{}, must be {}{}", interval, limits, how);
   } else {
     claim.verdict = "unknown";
-    claim.reason = fmt::format("the interval {} straddles a limit of {}: cannot be decided{}", interval, limits, how);
+    claim.reason = fmt::format("the interval {} straddles a limit ({}): cannot be decided{}", interval, limits, how);
   }
 }
 
@@ -254,9 +256,10 @@ void decide_each(const ClaimSpec& spec, const std::vector<std::pair<std::string,
   }
   claim.verdict = !outside.empty() ? "fails" : !straddling.empty() ? "unknown" : "holds";
   const std::string mean = claim.reason;
-  claim.reason = !outside.empty()      ? outside
-                 : !straddling.empty() ? straddling
-                                       : "each is within " + limits_text(spec) + (mean.empty() ? "" : "; " + mean);
+  claim.reason = !outside.empty() ? outside
+                 : !straddling.empty()
+                     ? straddling
+                     : "each is as it must be: " + limits_text(spec) + (mean.empty() ? "" : "; " + mean);
 }
 
 std::string measure_text(const ClaimSpec& spec) {

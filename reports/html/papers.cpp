@@ -30,7 +30,8 @@ std::string cells_part(const Model& model, const std::string& paper) {
             number_cell(figure(ratio, "&ndash;"), ratio) + "</tr>";
   }
   if (rows.empty()) return "";
-  return "<p class=\"hint\">Published figures are of the paper's machine and are not judged.</p>" +
+  return "<h4>Published and measured</h4><p class=\"hint\">Published figures are of the paper's machine and are not "
+         "judged.</p>" +
          table_text("Published cells of " + paper,
                     {{"table", false},
                      {"cell", false},
@@ -55,29 +56,44 @@ std::string interval_text(const Claim& claim) {
   return " <span class=\"dim\">[" + number(claim.measured_lo) + ", " + number(claim.measured_hi) + "]</span>";
 }
 
+bool same_claim(const Claim& a, const Claim& b) {
+  return a.paper == b.paper && a.experiment == b.experiment && a.id == b.id;
+}
+
+// What all backends of a claim share, once: cells that span their rows.
+std::string claim_head(const Claim& claim, size_t rows) {
+  const std::string span = rows > 1 ? fmt::format(" rowspan=\"{}\"", rows) : "";
+  return "<th scope=\"row\"" + span + ">" + escape(claim.id) + "</th><td" + span + ">" + escape(claim.text) +
+         "</td><td" + span + ">" + escape(claim.rule) + "</td><td" + span + ">" + escape(claim.measure) + "</td>";
+}
+
 std::string claims_part(const Model& model, const std::string& paper) {
+  const std::vector<Claim>& claims = model.results.claims;
   std::string rows;
-  for (const Claim& claim : model.results.claims) {
+  for (size_t i = 0; i < claims.size(); ++i) {
+    const Claim& claim = claims[i];
     if (claim.paper != paper) continue;
-    rows += "<tr><th scope=\"row\">" + escape(claim.id) + "</th><td>" + escape(claim.text) + "</td><td>" +
-            escape(claim.rule) + "</td><td>" + escape(claim.measure) + "</td><td>" + escape(claim.backend) +
+    size_t end = i + 1;
+    while (end < claims.size() && same_claim(claims[end], claim)) ++end;
+    const bool first = i == 0 || !same_claim(claims[i - 1], claim);
+    rows += "<tr>" + (first ? claim_head(claim, end - i) : "") + "<td>" + escape(claim.backend) +
             (claim.backend.empty() ? "" : software_tag(model, claim.backend)) + "</td><td class=\"num\">" +
             figure(claim.measured, "&ndash;") + interval_text(claim) + "</td><td class=\"num\">" + wanted_text(claim) +
             "</td><td>" + verdict_badge(verdict_words(claim.verdict)) + "</td><td>" + escape(claim.reason) +
             "</td></tr>";
   }
   if (rows.empty()) return "";
-  return table_text("Claims",
-                    {{"claim", false},
-                     {"text", false},
-                     {"rule", false},
-                     {"measure", false},
-                     {"backend", false},
-                     {"measured", true},
-                     {"wanted", true},
-                     {"verdict", false},
-                     {"reason", false}},
-                    rows, "wide");
+  return "<h4>Claims</h4>" + table_text("Claims",
+                                        {{"claim", false},
+                                         {"text", false},
+                                         {"rule", false},
+                                         {"measure", false},
+                                         {"backend", false},
+                                         {"measured", true},
+                                         {"wanted", true},
+                                         {"verdict", false},
+                                         {"reason", false}},
+                                        rows, "wide");
 }
 
 }  // namespace
