@@ -69,6 +69,9 @@ std::vector<const Result*> Judge::chosen(const CellSelector& selector) const {
   std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(out),
                [&](const Result* result) { return matches(selector, result->key); });
   if (out.empty()) throw NotComparable{"its cells are not in these results"};
+  if (&selector == &spec_.of && out.size() < spec_.cells)
+    throw NotComparable{
+        fmt::format("{} of its {} cells are not in these results", spec_.cells - out.size(), spec_.cells)};
   return out;
 }
 

@@ -37,6 +37,7 @@ struct ClaimSpec {
   std::string over;
   double expected = 0;                                // NaN: not stated
   std::optional<double> limit_lo, limit_hi;           // what the value must lie within
+  size_t cells = 0;                                   // that `of` chooses on each backend; fewer: the claim is unknown
   std::map<std::string, std::string> not_comparable;  // backend -> why nothing can be said there
 };
 

@@ -218,6 +218,7 @@ ClaimSpec ClaimParser::claim(const JsonNode& node) const {
   }
   out.of = selector(object.at(order ? "less" : two ? "numerator" : "of"));
   if (two) out.against = selector(object.at(order ? "more" : "denominator"));
+  out.cells = chosen(out.of).size();
   parse_limits(object, node, out);
   if (const auto over = object.find("over")) {
     if (out.rule != ClaimRule::Shape) over->fail("an exponent is a shape");

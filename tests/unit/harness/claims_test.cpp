@@ -195,6 +195,18 @@ TEST_F(ClaimTest, WhatIsMissingMakesItUnknown) {
   EXPECT_TRUE(std::isnan(judged(ratio(1, 3)).measured));
 }
 
+TEST_F(ClaimTest, PartOfItsCellsIsNotEnough) {  // as with --scene, or after an interruption
+  add("a", 100, "1", 4, 4);
+  add("a", 100, "2", 2, 2);
+  ClaimSpec claim = ratio(1, 3);
+  claim.cells = 2;
+  EXPECT_EQ(judged(claim).verdict, "unknown");
+  EXPECT_EQ(judged(claim).reason, "1 of its 2 cells are not in these results");
+  add("b", 100, "1", 4, 4);
+  add("b", 100, "2", 2, 2);
+  EXPECT_EQ(judged(claim).verdict, "holds");
+}
+
 TEST_F(ClaimTest, AnExcusedBackendIsNotJudged) {
   add("a", 100, "1", 4, 4);
   add("a", 100, "2", 2, 2);

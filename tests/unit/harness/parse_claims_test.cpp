@@ -60,6 +60,7 @@ TEST(ParseClaims, EveryKeyIsRead) {
   EXPECT_NEAR(*ratio.limit_hi, 1.98, 1e-12);
   EXPECT_EQ(std::get<std::string>(ratio.against->params.at("textures_per_polygon")), "2");
   EXPECT_EQ(ratio.not_comparable.at("gl"), "no clock");
+  EXPECT_EQ(ratio.cells, 6U);  // two scenes, three values
   EXPECT_EQ(claims.claims[1].over, "slices");
   EXPECT_FALSE(claims.claims[1].limit_hi);
   EXPECT_TRUE(std::isnan(claims.claims[1].expected));

@@ -100,6 +100,11 @@ Results sample_results() {
   parity.limit = 2e-3;
   results.parity = {parity};
   results.claims = {{"c1", "faster", "ratio > 1", "holds", "", 2, 1}};
+  Claim& unknown = results.claims.emplace_back(results.claims.front());
+  unknown.verdict = "unknown";
+  unknown.measured = unknown.measured_lo = std::numeric_limits<double>::quiet_NaN();
+  unknown.limit_lo = 1.5;  // and no limit above
+  unknown.cells = {results.results.front().key};
   results.self_test = {{"flip", "black/white", "paper", 0.967388, 0.9673881, 1e-5, true}};
   return results;
 }
