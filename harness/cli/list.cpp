@@ -130,15 +130,15 @@ void print_parameters(const Json& method) {
 void print_text(const std::string& heading, const Json& rows) {
   fmt::print("{}\n", heading);
   for (const Json& row : rows) {
-    fmt::print("  {:<20} {}\n", row["name"].get<std::string>(), row["title"].get<std::string>());
+    fmt::print("  {:<21} {}\n", row["name"].get<std::string>(), row["title"].get<std::string>());
     if (row.contains("parameters")) print_parameters(row);
     if (row.contains("methods")) {
       const auto methods = row["methods"].get<std::vector<std::string>>();
-      fmt::print("  {:<20}   {}\n", "",
+      fmt::print("  {:<21}   {}\n", "",
                  methods.empty() ? "no method simulates it" : fmt::format("simulated by {}", fmt::join(methods, ", ")));
     }
     if (row.contains("opens"))
-      fmt::print("  {:<20}   {}\n", "",
+      fmt::print("  {:<21}   {}\n", "",
                  row["opens"].get<bool>()
                      ? fmt::format("{}, {}, {}", row["api"].get<std::string>(), row["renderer"].get<std::string>(),
                                    row["version"].get<std::string>())
