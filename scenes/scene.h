@@ -65,7 +65,7 @@ struct ClipPlane {
 struct Effects {
   std::optional<Lighting> lighting;
   std::vector<ClipPlane> clip_planes;  // empty: not simulated
-  bool fixed_point = false;            // arithmetic of the boards of 2000, as scenes/effects.h defines it
+  bool fixed_point = false;            // arithmetic of the boards of 2000, as docs/effects.md defines it
   std::vector<std::string> others;     // names of the vocabulary that no technique here simulates yet, in its order
 };
 
