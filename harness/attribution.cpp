@@ -73,6 +73,20 @@ class Attributor {
   std::optional<Device> device_;
 };
 
+double number_of(const Value& value) {
+  if (const auto* whole = std::get_if<int64_t>(&value)) return static_cast<double>(*whole);
+  const auto* real = std::get_if<double>(&value);
+  return real == nullptr ? 0 : *real;
+}
+
+// Along the quality axis also what is finer than the ideal: going back to it would show the error of the coarser work.
+bool is_ideal(const ParameterInfo& parameter, const Value& value) {
+  if (value == *parameter.ideal) return true;
+  if (!parameter.quality_axis) return false;
+  const bool falling = parameter.sweep.front() > parameter.sweep.back();
+  return falling ? number_of(value) < number_of(*parameter.ideal) : number_of(value) > number_of(*parameter.ideal);
+}
+
 Attribution Attributor::run() {
   Attribution out;
   out.key = result_.key;
@@ -91,7 +105,7 @@ Attribution Attributor::run() {
   }
   Values all = planned_.group->values;
   for (const ParameterInfo& parameter : planned_.group->method->info().parameters) {
-    if (!parameter.ideal || planned_.group->values.at(parameter.name) == *parameter.ideal) continue;
+    if (!parameter.ideal || is_ideal(parameter, planned_.group->values.at(parameter.name))) continue;
     all[parameter.name] = *parameter.ideal;
     out.parts.push_back(part(parameter));
   }
@@ -251,6 +265,8 @@ std::string floor_text(const Attribution& entry) {
   for (const AttributionPart& part : entry.parts)
     if (part.worth >= kWorthNaming)
       causes.push_back(fmt::format("{} ({:.0f} % of the squared error)", part.aspect, 100 * part.worth));
+  if (std::isnan(entry.all_ideal))
+    return causes.empty() ? "not known: " + entry.note : fmt::format("{}", fmt::join(causes, ", "));
   const double left = entry.all_ideal * entry.all_ideal / (entry.error * entry.error);
   if (entry.all_ideal <= entry.bound) {
     if (causes.empty()) causes.emplace_back("no part alone, all together");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "reports/analysis.h"
+
 namespace volumark {
 namespace {
 
@@ -51,7 +53,7 @@ std::vector<PlannedCell> usual_cells(std::span<const Group> groups, const Result
       groups, [](const Group& group) { return off_defaults(group, ""); },
       [&](const Cell& cell) {
         const Result* result = find_result(results, cell.key);
-        return result != nullptr && result->error && result->metrics;
+        return result != nullptr && error_counts(*result) && result->metrics;
       });
 }
 

@@ -8,6 +8,7 @@
 #include "harness/run_folder.h"
 #include "harness/statistics.h"
 #include "methods/method.h"
+#include "reports/analysis.h"
 
 namespace volumark {
 namespace {
@@ -20,7 +21,7 @@ struct Series {
 std::vector<Series> series_of(Results& results) {
   std::vector<Series> out;
   for (Result& result : results.results) {
-    if (!result.quality || !result.error) continue;
+    if (!result.quality || !error_counts(result)) continue;
     CellKey key = result.key;
     key.params.erase(result.quality->parameter);
     auto found = std::find_if(out.begin(), out.end(), [&](const Series& series) { return series.key == key; });

@@ -1,6 +1,7 @@
 #include "harness/effect_rows.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "harness/effect_variants.h"
 #include "harness/metrics/metrics.h"
@@ -28,13 +29,16 @@ void compare_pictures(const VariantCell& with, const VariantCell& without, const
                       EffectRow& row) {
   CompareOptions options;
   options.background = background;
+  bool compared = false;
   for (const auto& [view, image] : *with.images) {
     const auto other = without.images->find(view);
     if (other == without.images->end()) continue;
+    compared = true;
     const Errors errors = compare_images(image, other->second, options);
     row.rmse = std::max(row.rmse, errors.rmse);
     row.flip_p99 = std::max(row.flip_p99, errors.flip_p99.value_or(0));
   }
+  if (!compared) row.rmse = row.flip_p99 = std::numeric_limits<double>::quiet_NaN();
 }
 
 bool apart(const Stats& a, const Stats& b) { return a.median_lo > b.median_hi || b.median_lo > a.median_hi; }

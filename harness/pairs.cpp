@@ -9,6 +9,7 @@
 #include "harness/frame.h"
 #include "harness/metrics/metrics.h"
 #include "harness/statistics.h"
+#include "reports/analysis.h"
 
 namespace volumark {
 namespace {
@@ -20,6 +21,13 @@ double largest_difference(const Image& a, const Image& b) {
     worst = std::isfinite(d) ? std::max(worst, d) : std::numeric_limits<double>::infinity();
   }
   return worst;
+}
+
+// Of fewer samples a view the interval of the median is no interval.
+constexpr int64_t kLeastSamples = 3;
+
+bool timed_well(const Result& result) {
+  return result.metrics->frame_wall.stats.count >= kLeastSamples * static_cast<int64_t>(result.views.size());
 }
 
 // "a" or "b", whichever interval lies lower; "indistinguishable" where they touch.
@@ -58,7 +66,7 @@ std::string reason_of(const Result& a, const Result& b, const PairRow& row) {
 
 bool measured(const Results& results, const CellKey& key) {
   const Result* result = find_result(results, key);
-  return result != nullptr && result->error && result->metrics && result->metrics->frame_wall.stats.count > 0;
+  return result != nullptr && error_counts(*result) && result->metrics && result->metrics->frame_wall.stats.count > 0;
 }
 
 }  // namespace
@@ -100,8 +108,12 @@ PairRow compare_methods(const DrawnCell& a, const DrawnCell& b, const SceneConte
   const Result &result_a = *find_result(results, row.a), &result_b = *find_result(results, row.b);
   row.error_verdict =
       lower_of(error_interval(result_a, row.bound, row.noise_a), error_interval(result_b, row.bound, row.noise_b));
-  row.time_verdict = lower_of(time_interval(result_a), time_interval(result_b));
+  row.time_verdict = "indistinguishable";
   row.reason = reason_of(result_a, result_b, row);
+  if (timed_well(result_a) && timed_well(result_b))
+    row.time_verdict = lower_of(time_interval(result_a), time_interval(result_b));
+  else
+    row.reason += fmt::format("; times of fewer than {} samples a view are not told apart", kLeastSamples);
   return row;
 }
 

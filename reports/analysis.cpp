@@ -23,11 +23,15 @@ bool a_view_shows_nothing(const Result& result) {
                      [](const ViewResult& view) { return view.shows_nothing; });
 }
 
+bool error_counts(const Result& result) {
+  const bool drawn = result.outcome == Outcome::Ok || result.outcome == Outcome::WrongImage;
+  return drawn && result.error && result.error->worst.non_finite == 0 && result.ignored_effects.empty();
+}
+
 namespace {
 
 bool is_ranked(const Result& result) {
-  const bool drawn = result.outcome == Outcome::Ok || result.outcome == Outcome::WrongImage;
-  return drawn && result.metrics && result.error && result.key.variant.empty() && result.ignored_effects.empty() &&
+  return error_counts(result) && result.metrics && result.key.variant.empty() &&
          !std::all_of(result.views.begin(), result.views.end(),
                       [](const ViewResult& view) { return view.shows_nothing; });
 }

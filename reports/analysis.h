@@ -29,6 +29,10 @@ struct CostPoint {
 // magnitude), "ciede2000_p99", "dssim" (1 - SSIM). Throws ResultsError for another name.
 double error_value(const ErrorMetrics& errors, const std::string& metric);
 
+// Whether the cell's error may stand beside those of others: it was drawn with every effect of its scene, it has an
+// error, and every pixel of it is finite (figures leave pixels out that are not).
+bool error_counts(const Result& result);
+
 // The reference of one of its views shows the background alone.
 bool a_view_shows_nothing(const Result& result);
 

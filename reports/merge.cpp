@@ -79,9 +79,22 @@ std::vector<std::string> differences(const Results& first, const Results& other)
     out.push_back("build " + other.build.compiler + " " + other.build.version + " " + other.build.type);
   for (const BackendResultInfo& backend : other.backends)
     for (const BackendResultInfo& known : first.backends)
-      if (known.id == backend.id && (known.renderer != backend.renderer || known.version != backend.version))
+      if (known.id == backend.id && known.software == backend.software &&
+          (known.renderer != backend.renderer || known.version != backend.version))
         out.push_back(backend.id + ": " + backend.renderer + " " + backend.version);
+  for (const SceneResultInfo& scene : other.scenes)
+    for (const SceneResultInfo& known : first.scenes)
+      if (known.name == scene.name && known.hash != scene.hash) out.push_back("scene " + scene.name);
   return out;
+}
+
+// A backend is described once, and software is never ranked against hardware.
+void refuse_mixed_backends(const Results& first, const Results& other, const std::string& path) {
+  for (const BackendResultInfo& backend : other.backends)
+    for (const BackendResultInfo& known : first.backends)
+      if (known.id == backend.id && known.software != backend.software)
+        throw ResultsError(path + ": " + backend.id + " is " + (backend.software ? "software" : "hardware") +
+                           " here and not in the first of these results; report them apart");
 }
 
 }  // namespace
@@ -101,9 +114,10 @@ MergedResults merge_results(std::span<const std::filesystem::path> paths) {
     for (const std::string& difference : differences(all.front(), all[i]))
       note += (note.empty() ? paths[i].generic_string() + " is of another " : "; another ") + difference;
     if (!note.empty()) out.notes.push_back(note);
-    if (i == 0) continue;
-    if (all[i].run.interrupted || all[i].run.finished_at.empty())
+    if (paths.size() > 1 && (all[i].run.interrupted || all[i].run.finished_at.empty()))
       out.notes.push_back(paths[i].generic_string() + " did not finish: rows may be missing");
+    if (i == 0) continue;
+    refuse_mixed_backends(all.front(), all[i], paths[i].string());
     for (const Result& cell : all[i].results)
       if (std::any_of(all.front().results.begin(), all.front().results.end(),
                       [&](const Result& other) { return other.key == cell.key; }))

@@ -43,6 +43,10 @@ void add_verification(const RunOptions& options, RunOutcome& outcome) {
   fmt::print("{}\n", verify_summary(found));
   if (verify_failed(found)) outcome.bad_news.push_back("stability: " + verify_summary(found));
   outcome.interrupted = outcome.interrupted || found.interrupted;
+  if (found.interrupted) {  // a part of the suite must not read as the whole of it
+    outcome.results.run.interrupted = true;
+    outcome.results.run.finished_at.clear();
+  }
   outcome.results.hard_cases = std::move(found.rows);
   outcome.results.sensitivity = std::move(found.sensitivity);
   folder.save(outcome.results, true);

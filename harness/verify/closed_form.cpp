@@ -14,10 +14,10 @@ namespace {
 
 double opacity(double depth) { return -std::expm1(-std::max(depth, 0.0)); }
 
-// n blends each round once, by at most 2^-24 of values up to 1; opacity and length of the segments are off by a few
-// times 2^-24 of themselves, over all of them as much as four blends.
+// Each of n blends rounds a product and a sum, both by at most 2^-24 of values up to 1; opacity and length of the
+// segments are off by a few times 2^-24 of themselves, over all of them as much as four blends.
 double blend_rounding(double blends) { return (blends + 4) * 0x1p-23; }
-const char* const kBlendSource = "n blends round once each: (n + 4) 2^-23";
+const char* const kBlendSource = "n blends round a product and a sum each: (n + 4) 2^-23";
 
 const glm::dvec3 kColour(1, 0.5, 0.25);
 

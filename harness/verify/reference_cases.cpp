@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <random>
 
 #include "harness/verify/brute_force.h"
@@ -29,8 +30,10 @@ class WorstRay {
       const double error = std::abs(integral.rgba[channel] - expected);
       // 2e-14: the integrator rounds data values to double for the transfer function.
       const double allowed = integral.bound + 2e-14;
-      if (!(error / allowed <= share_)) {
-        share_ = error / allowed;
+      // A ray that is not finite stays the worst.
+      const double share = std::isfinite(error / allowed) ? error / allowed : std::numeric_limits<double>::infinity();
+      if (share > share_) {
+        share_ = share;
         worst_ = {
             .check = "", .expected = expected, .measured = integral.rgba[channel], .bound = allowed, .source = ""};
       }

@@ -209,6 +209,14 @@ TEST_F(FloorTest, WhatNoPartTakesAwayIsTheMethodsOwn) {
   EXPECT_EQ(reason(0.999e-3), "the method's own");
 }
 
+TEST_F(FloorTest, WhereTheIdealCannotBeDrawnTheRestIsNotKnown) {
+  results_.attribution[0].note = "with all parts ideal: out of memory";
+  const double nan = std::nan("");
+  EXPECT_EQ(reason(nan), "not known: with all parts ideal: out of memory");
+  add("step", 0.9);
+  EXPECT_EQ(reason(nan), "step (90 % of the squared error)");
+}
+
 TEST_F(FloorTest, BothAreNamedWhereBothMatter) {
   add("step", 0.5);
   EXPECT_EQ(reason(1e-3 * std::sqrt(0.5)), "step (50 % of the squared error), the method's own (50 %)");

@@ -12,6 +12,7 @@ Result cell(const std::string& scene, double step, double rmse, double expected)
   Result result;
   result.key = {"e", scene, "m", "cpu", {{"step", step}, {"mode", std::string("post")}}};
   result.quality = Quality{"step", step};
+  result.outcome = Outcome::Ok;
   result.error = CellError{};
   result.error->worst.rmse = rmse;
   result.order.expected = expected;

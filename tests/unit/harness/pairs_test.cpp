@@ -22,6 +22,7 @@ class PairTest : public testing::Test {
       result.outcome = Outcome::Ok;
       result.error.emplace();
       result.metrics.emplace();
+      result.views.resize(1);
       results_.results.push_back(result);
     }
     set_time(0, 0.010, 0.011);
@@ -78,6 +79,14 @@ TEST_F(PairTest, TimesByTheIntervalsOfTheirMedians) {
   EXPECT_EQ(row().time_verdict, "indistinguishable");
   set_time(1, 0.0111, 0.012);
   EXPECT_EQ(row().time_verdict, "a");
+}
+
+TEST_F(PairTest, TimesOfFewSamplesAreNotToldApart) {
+  set_time(1, 0.0111, 0.012);
+  results_.results[1].metrics->frame_wall.stats.count = 2;
+  const PairRow found = row();
+  EXPECT_EQ(found.time_verdict, "indistinguishable");
+  EXPECT_NE(found.reason.find("fewer than 3 samples"), std::string::npos) << found.reason;
 }
 
 TEST_F(PairTest, FiguresAreOfTheWorstView) {

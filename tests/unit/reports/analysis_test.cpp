@@ -143,6 +143,14 @@ TEST(CostPoint, AnotherPictureThanTheScenesIsNotRanked) {
   EXPECT_FALSE(cost_point(results, 0, "rmse"));
 }
 
+TEST(CostPoint, PixelsThatAreNotFiniteAreNotRanked) {
+  Results results = sample_results();
+  ASSERT_TRUE(cost_point(results, 0, "rmse"));
+  results.results[0].error->worst.non_finite = 1;  // figures leave it out: the error of the others may be small
+  EXPECT_FALSE(error_counts(results.results[0]));
+  EXPECT_FALSE(cost_point(results, 0, "rmse"));
+}
+
 TEST(CostPoint, ErrorIsNeverBelowTheReferencesBound) {
   Results results = sample_results();
   results.results[0].views[0].reference->bound = 0.5;

@@ -30,9 +30,17 @@ class Merge : public ::testing::Test {
   fs::path folder_;
 };
 
+// A run that came to its end.
+Results whole() {
+  Results out = sample_results();
+  out.run.finished_at = "2026-01-01T11:00:00Z";
+  out.run.interrupted = false;
+  return out;
+}
+
 // A run of another experiment, with a hard case whose picture climbs out of its folder.
 Results second() {
-  Results out = sample_results();
+  Results out = whole();
   for (Result& cell : out.results) cell.key.experiment = "other";
   out.experiments.resize(1);
   out.experiments[0].name = "other";
@@ -45,7 +53,7 @@ Results second() {
 }
 
 TEST_F(Merge, OneRunStaysAsItIs) {
-  const Results given = sample_results();
+  const Results given = whole();
   const std::vector<fs::path> paths = {write("one", given)};
   const MergedResults merged = merge_results(paths);
   EXPECT_EQ(merged.folder, folder_ / "one");
@@ -54,7 +62,7 @@ TEST_F(Merge, OneRunStaysAsItIs) {
 }
 
 TEST_F(Merge, CellsOfBothAreKeptAndDescribedOnce) {
-  const Results first = sample_results();
+  const Results first = whole();
   const std::vector<fs::path> paths = {write("one", first), write("two", second())};
   const MergedResults merged = merge_results(paths);
   EXPECT_EQ(merged.folder, folder_);
@@ -67,7 +75,7 @@ TEST_F(Merge, CellsOfBothAreKeptAndDescribedOnce) {
 }
 
 TEST_F(Merge, PicturesAreFoundBelowTheCommonFolder) {
-  const std::vector<fs::path> paths = {write("one", sample_results()), write("two", second()) / "results.json"};
+  const std::vector<fs::path> paths = {write("one", whole()), write("two", second()) / "results.json"};
   const MergedResults merged = merge_results(paths);
   const ImageFile& image = *merged.results.hard_cases[0].picture;
   EXPECT_EQ(image.preview, "two/images/slab.png");
@@ -75,7 +83,7 @@ TEST_F(Merge, PicturesAreFoundBelowTheCommonFolder) {
 }
 
 TEST_F(Merge, TheSameCellTwiceIsRefused) {
-  const std::vector<fs::path> paths = {write("one", sample_results()), write("two", sample_results())};
+  const std::vector<fs::path> paths = {write("one", whole()), write("two", whole())};
   try {
     merge_results(paths);
     FAIL() << "accepted";
@@ -88,11 +96,30 @@ TEST_F(Merge, DifferencesAreSaid) {
   Results other = second();
   other.git.sha = "another";
   other.machine.cpu = "Another CPU";
-  const std::vector<fs::path> paths = {write("one", sample_results()), write("two", other)};
+  const std::vector<fs::path> paths = {write("one", whole()), write("two", other)};
   const MergedResults merged = merge_results(paths);
   ASSERT_FALSE(merged.notes.empty());
   EXPECT_THAT(merged.notes[0], HasSubstr("another commit another"));
   EXPECT_THAT(merged.notes[0], HasSubstr("machine Another CPU"));
+}
+
+TEST_F(Merge, SoftwareAndHardwareUnderOneNameAreRefused) {
+  Results other = second();
+  ASSERT_FALSE(other.backends.empty());
+  other.backends[0].software = !other.backends[0].software;
+  const std::vector<fs::path> paths = {write("one", whole()), write("two", other)};
+  EXPECT_THROW(merge_results(paths), ResultsError);
+}
+
+TEST_F(Merge, AnotherSceneOfTheSameNameAndAFirstRunThatDidNotFinishAreSaid) {
+  Results first = whole(), other = second();
+  first.run.finished_at.clear();
+  other.scenes[0].hash = "another";
+  const std::vector<fs::path> paths = {write("one", first), write("two", other)};
+  const MergedResults merged = merge_results(paths);
+  ASSERT_EQ(merged.notes.size(), 2U);
+  EXPECT_THAT(merged.notes[0], HasSubstr("one did not finish"));
+  EXPECT_THAT(merged.notes[1], HasSubstr("scene " + other.scenes[0].name));
 }
 
 TEST_F(Merge, HardCasesAreThoseOfTheFirstThatHasThem) {
