@@ -173,6 +173,7 @@ void CellRun::ignore_effects() {
 
 void CellRun::open() {
   guarded([this] {
+    if (const auto other = display_reason(*group_.method, scene_)) throw Ended{Outcome::Unsupported, *other};
     if (!group_.ignore_effects)  // before any work: data, Device, references
       if (const auto reason = missing_effect_reason(*group_.method, scene_.effects))
         throw Ended{Outcome::Unsupported, *reason};

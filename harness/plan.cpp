@@ -212,12 +212,18 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
   check_variants(experiments, filter);
   size_t cells = 0;
   std::vector<Group> groups;
+  std::string left_out;
   for (const Experiment& experiment : experiments)
     for (const std::string& scene : experiment.scenes) {
       if (!passes(filter.scenes, scene_name(scene))) continue;
       const std::vector<std::string> variants = chosen_variants(experiment, scene, filter);
+      const Scene parsed = load_scene(scene);
       for (const ExperimentMethod& method : experiment.methods) {
         if (!passes(filter.methods, method.method->info().name)) continue;
+        if (const auto reason = display_reason(*method.method, parsed)) {
+          left_out = scene_name(scene) + ": " + *reason;
+          continue;
+        }
         const std::vector<double> sweep =
             method.sweep.empty() ? std::vector<double>{std::nan("")} : method.sweep;  // NaN: as it is
         for (const double quality : sweep) {
@@ -237,6 +243,7 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
         }
       }
     }
+  if (groups.empty() && !left_out.empty()) throw SceneError("nothing to run: " + left_out);
   set_commands(groups, sweeps);
   check_unique(groups);
   return groups;

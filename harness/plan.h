@@ -37,9 +37,10 @@ struct CellFilter {
   std::vector<std::string> variants;                      // of experiments that switch effects, as in CellKey
 };
 
-// Scene by scene, method, quality value, backend, variant. `sweeps` are those that were applied to the experiments: the
-// cells' commands name them. Throws SceneError where a filter names what no experiment has, and for more than
-// kMostCells cells.
+// Scene by scene, method, quality value, backend, variant. An experiment pairs its methods with those of its scenes
+// whose display they draw (MethodInfo::displays). `sweeps` are those that were applied to the experiments: the
+// cells' commands name them. Throws SceneError where a filter names what no experiment has, where no method draws what
+// the chosen scenes show, and for more than kMostCells cells.
 std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const CellFilter& filter,
                               const std::vector<Sweep>& sweeps = {});
 

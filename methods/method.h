@@ -31,7 +31,8 @@ struct MethodInfo {
   std::vector<std::string> effects;  // that it can simulate
   // Expected order of convergence along the quality axis on smooth fields with the given values; 0 = not stated.
   double (*expected_order)(const Values&) = nullptr;
-  std::vector<CaseExemption> exempt = {};  // from hard cases
+  std::vector<CaseExemption> exempt = {};             // from hard cases
+  std::vector<Display> displays = {Display::Direct};  // what of a scene it draws
 };
 
 // A method made ready for one scene, one set of values and one Device. Dies before the Device.
@@ -68,6 +69,9 @@ std::optional<std::string> unsupported_reason(const Method& method, const Scene&
 // The effects that `method` simulates in no scene, of those that are called for: known before data, references or a
 // Device are there.
 std::vector<std::string> missing_effects(const Method& method, const Effects& effects);
+// Why `method` cannot draw what the scene shows; nothing where it can. Known before any work, and no effect is to
+// blame.
+std::optional<std::string> display_reason(const Method& method, const Scene& scene);
 // The part of unsupported_reason() that follows from missing_effects().
 std::optional<std::string> missing_effect_reason(const Method& method, const Effects& effects);
 

@@ -38,6 +38,15 @@ std::vector<std::string> missing_effects(const Method& method, const Effects& ef
   return out;
 }
 
+std::optional<std::string> display_reason(const Method& method, const Scene& scene) {
+  const std::vector<Display>& drawn = method.info().displays;
+  if (std::find(drawn.begin(), drawn.end(), scene.display) != drawn.end()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Display display : drawn) names.emplace_back(to_string(display));
+  return fmt::format("the scene's display is \"{}\"; {} draws: {}", to_string(scene.display), method.info().name,
+                     fmt::join(names, ", "));
+}
+
 std::optional<std::string> missing_effect_reason(const Method& method, const Effects& effects) {
   const std::vector<std::string> missing = missing_effects(method, effects);
   if (missing.empty()) return std::nullopt;
@@ -60,6 +69,7 @@ std::string refused_effect(const Method& method, const Scene& scene, const Value
 
 std::optional<std::string> unsupported_reason(const Method& method, const Scene& scene, const Values& values,
                                               const BackendInfo& backend) {
+  if (auto other = display_reason(method, scene)) return other;
   if (auto missing = missing_effect_reason(method, scene.effects)) return missing;
   const auto reason = method.unsupported(scene, values, backend);
   if (!reason) return std::nullopt;

@@ -86,8 +86,9 @@ bool in_radius_units(const JsonObject& object, bool fallback) {
 
 Scene parse_scene(std::string_view text, const std::string& path) {
   const nlohmann::json document = parse_json(text, path);
-  const JsonObject root(JsonNode(document, "", path), {"volumark_scene", "title", "description", "volume", "transfer",
-                                                       "views", "image", "background", "effects"});
+  const JsonObject root(JsonNode(document, "", path),
+                        {"volumark_scene", "title", "description", "volume", "transfer", "views", "image", "background",
+                         "effects", "isosurface", "slice_plane"});
   root.at("volumark_scene").integer(1, 1);
   Scene scene;
   auto plan = std::make_shared<ScenePlan>();
@@ -105,6 +106,7 @@ Scene parse_scene(std::string_view text, const std::string& path) {
   }
   if (const auto background = root.find("background")) scene.background = background->vec3(0, 1);
   if (const auto effects = root.find("effects")) parse_effects(*effects, scene, *plan);
+  parse_display(root, scene, *plan);
   plan->canonical = canonical_text(document);
   scene.plan = std::move(plan);
   describe_source(scene);

@@ -2,6 +2,7 @@
 // absent here is not simulated. All colours are linear RGB; all angles in files are degrees, in these structs radians.
 #pragma once
 
+#include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -16,6 +17,7 @@
 
 namespace volumark {
 
+struct Shell;      // scenes/shell.h
 struct ScenePlan;  // scenes/scene_plan.h: what load_data has yet to do
 
 // Post-classified continuous emission-absorption: extinction tau(s) [1 / world unit] and colour c(s) are piecewise
@@ -69,6 +71,33 @@ struct Effects {
   std::vector<std::string> others;     // names of the vocabulary that no technique here simulates yet, in its order
 };
 
+// What of the data a scene shows: exactly one of these. A method says which it draws (MethodInfo::displays).
+enum class Display : uint8_t {
+  Direct,      // emission and absorption of the volume
+  Isosurface,  // Scene::isosurface
+  SlicePlane,  // Scene::slice_plane
+  Shell,       // Scene::shell
+};
+const char* to_string(Display display);  // "direct", "isosurface", "slice_plane", "shell"
+
+// The part of the volume where the interpolated field is at least `value`, taken as solid: a ray shows the first point,
+// from the near plane on, at which the field reaches it - on the surface, or where the ray enters the solid through a
+// face of the box, a clip plane or the near plane - and is opaque there. Its colour: ambient_colour * ambient + colour
+// * sum_i L_i diffuse max(0, n.l) + specular term, all as in Lighting; `colour` alone where no lighting is called for.
+// Rays that meet no such point show nothing. The transfer function gives only the window.
+struct Isosurface {
+  double value = 0;              // data units; may lie outside the data: then all or nothing is solid
+  glm::dvec3 colour{1};          // diffuse reflectance
+  glm::dvec3 ambient_colour{1};  // reflectance of ambient light; the file's default is `colour`
+};
+
+// Multi-planar reformatting: where the plane cuts the volume, the transfer function's colour at the interpolated value,
+// opaque; elsewhere nothing. It is not lit. Clip planes cut it.
+struct SlicePlane {
+  glm::dvec3 point{0};         // world space
+  glm::dvec3 normal{0, 0, 1};  // unit
+};
+
 struct View {
   glm::dvec3 eye{0, 0, 1}, target{0}, up{0, 1, 0};
   bool perspective = true;
@@ -108,13 +137,18 @@ struct Scene {
   std::string name, title, description;
   std::string path;  // of the scene file
   std::string hash;  // sha256 over everything that decides its picture: the parsed scene, and the data's sha256
-  std::shared_ptr<const Volume> volume;  // null until load_data
+  std::shared_ptr<const Volume> volume;  // null until load_data, and in scenes that show a shell
   DataSource source;
   TransferFunction transfer;
   std::vector<View> views;
   int width = 512, height = 512;
   glm::dvec3 background{0};
   Effects effects;
+  // At most one of these; none: the volume is shown directly.
+  std::optional<Isosurface> isosurface;
+  std::optional<SlicePlane> slice_plane;
+  std::shared_ptr<const Shell> shell;     // null until load_data
+  Display display = Display::Direct;      // what the file asks for; set by the parser, or by whoever sets one of these
   std::shared_ptr<const ScenePlan> plan;  // of a parsed scene; null in one that was put together by hand
 };
 

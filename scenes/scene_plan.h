@@ -46,6 +46,8 @@ struct ScenePlan {
 std::variant<ProceduralSpec, FileSpec> parse_volume(const JsonNode& node);
 TransferFunction parse_transfer(const JsonNode& node);
 void parse_views(const JsonNode& node, Scene& scene, ScenePlan& plan);
+// "isosurface" or "slice_plane", of which a scene has at most one.
+void parse_display(const JsonObject& root, Scene& scene, ScenePlan& plan);
 void parse_effects(const JsonNode& node, Scene& scene, ScenePlan& plan);
 
 // True for "units": "radius", false for "world"; `fallback` where the key is absent.

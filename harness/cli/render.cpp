@@ -44,6 +44,8 @@ int refuse(const std::string& reason) {
 
 // What no setting and no backend could change: known before data are read.
 std::optional<std::string> missing_effect(const RenderOptions& options, const Scene& scene) {
+  if (options.method != "reference")
+    if (auto other = display_reason(find_method(options.method), scene)) return other;
   if (options.ignore_effects) return std::nullopt;
   if (options.method != "reference") return missing_effect_reason(find_method(options.method), scene.effects);
   if (scene.effects.others.empty()) return std::nullopt;
