@@ -9,6 +9,7 @@
 #include "harness/environment.h"
 #include "harness/frame.h"
 #include "harness/gates.h"
+#include "harness/jump.h"
 #include "harness/program_cost.h"
 #include "harness/run_folder.h"
 #include "harness/sampler.h"
@@ -96,6 +97,7 @@ void fill_errors(const Group& group, const SceneContext& context, const std::map
     errors.push_back(*view.error);
     if (!view.shows_nothing) telling.push_back(*view.error);
   }
+  measure_jumps(context, images, result);
   if (errors.empty()) return;
   if (telling.empty())
     result.reason = "every view shows the background alone: equal pictures say nothing of the error";

@@ -9,7 +9,7 @@
 namespace volumark {
 namespace {
 
-constexpr std::array kErrors = {"rmse", "max", "mae", "flip_mean", "flip_p99", "bias", "ciede2000_p99", "dssim"};
+constexpr std::array kErrors = {"rmse", "max", "mae", "flip_mean", "flip_p99", "bias", "ciede2000_p99", "dssim", "jump"};
 constexpr std::array kBytes = {"device", "process", "voxels", "target"};
 
 // "counter.slices": "slices" where the prefix is "counter.".
@@ -25,6 +25,20 @@ std::optional<Measured> of_samples(const Metric& metric) {
 }
 
 Measured plain(double value) { return {value, value, value}; }
+
+// The largest of all views; each of the two references that it takes part in may be off by its bound.
+std::optional<Measured> of_jump(const Result& result) {
+  std::optional<Measured> out;
+  for (size_t i = 0; i < result.views.size(); ++i) {
+    const ViewResult& view = result.views[i];
+    if (!view.jump || (out && *view.jump <= out->value)) continue;
+    double bound = 0;
+    for (const ViewResult* one : {&result.views[i - (i > 0 ? 1 : 0)], &view})
+      if (one->reference) bound += one->reference->bound;
+    out = Measured{*view.jump, std::max(0.0, *view.jump - bound), *view.jump + bound};
+  }
+  return out;
+}
 
 std::optional<Measured> of_error(const Result& result, const std::string& metric) {
   const bool all_empty =
@@ -71,11 +85,12 @@ std::string measure_fault(const std::string& measure) {
   return "unknown measure \"" + measure +
          "\"; known: frame_wall, frame_cpu, prepare.wall, prepare.cpu, instructions, counter.NAME, zone.NAME, "
          "peak_bytes.device (process, voxels, target), error.rmse (max, mae, flip_mean, flip_p99, bias, ciede2000_p99, "
-         "dssim)";
+         "dssim, jump)";
 }
 
 std::optional<Measured> measured(const Result& result, const std::string& measure) {
   if (const std::string fault = measure_fault(measure); !fault.empty()) throw ResultsError(fault);
+  if (measure == "error.jump") return of_jump(result);
   if (const auto metric = after(measure, "error.")) return of_error(result, *metric);
   if (measure == "instructions") return instructions(result);
   if (!result.metrics) return std::nullopt;

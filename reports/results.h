@@ -213,6 +213,7 @@ struct ViewResult {
   std::optional<ErrorMetrics> error;
   bool at_bound = false;       // the largest error is below the reference's bound: no ranking below it
   bool shows_nothing = false;  // the reference shows the background alone: the errors praise nothing
+  std::optional<double> jump;  // from the view before, where that is a neighbour: harness/jump.h
   // Kept where the experiment keeps images.
   std::optional<ImageFile> rendered, reference_image, difference, flip;
 };

@@ -254,6 +254,7 @@ void fields(A& a, ViewResult& v) {
   a.field("error", v.error);
   a.field("at_bound", v.at_bound);
   a.later("shows_nothing", v.shows_nothing);
+  a.later("jump", v.jump);
   a.field("rendered", v.rendered);
   a.field("reference_image", v.reference_image);
   a.field("difference", v.difference);

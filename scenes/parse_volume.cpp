@@ -52,6 +52,17 @@ Field parse_field(const JsonNode& node, const std::string& kind) {
     field.alpha = object.number_or("alpha", field.alpha, 0, 1e6);
     return field;
   }
+  if (kind == "vessel_tree") {
+    const JsonObject object(
+        node, {"kind", "size", "type", "extent", "seed", "generations", "radius", "aneurysm", "softness"});
+    VesselTreeField field;
+    field.seed = static_cast<uint32_t>(whole_or(object, "seed", 1, 0, 2147483647));
+    field.generations = whole_or(object, "generations", field.generations, 0, 12);
+    field.radius = object.number_or("radius", field.radius, 1e-3, 1);
+    field.aneurysm = object.number_or("aneurysm", field.aneurysm, 0, 10);
+    field.softness = object.number_or("softness", field.softness, 1e-6, 1);
+    return field;
+  }
   const JsonObject object(node, {"kind", "size", "type", "extent", "seed", "octaves", "frequency", "gain", "radius",
                                  "amplitude", "steepness"});
   PerlinCloudField field;
@@ -69,11 +80,13 @@ ProceduralSpec parse_generator(const JsonNode& node) {
   if (!node.json().is_object()) node.fail("expected an object with \"kind\"");
   if (!node.json().contains("kind")) node.fail("missing key \"kind\"");
   const JsonNode kind_node(node.json()["kind"], node.pointer() + "/kind", node.file());
-  const std::string kind = kind_node.one_of({"constant", "distance", "ramp", "marschner_lobb", "perlin_cloud"});
+  const std::string kind =
+      kind_node.one_of({"constant", "distance", "ramp", "marschner_lobb", "perlin_cloud", "vessel_tree"});
   ProceduralSpec spec;
   spec.field = parse_field(node, kind);
-  const JsonObject object(node, {"kind", "size", "type", "extent", "value", "axis", "from", "to", "frequency", "alpha",
-                                 "seed", "octaves", "gain", "radius", "amplitude", "steepness"});
+  const JsonObject object(
+      node, {"kind", "size", "type", "extent", "value", "axis", "from", "to", "frequency", "alpha", "seed", "octaves",
+             "gain", "radius", "amplitude", "steepness", "generations", "aneurysm", "softness"});
   spec.size = parse_size(object.at("size"));
   if (const auto type = object.find("type")) spec.type = parse_type(*type);
   spec.extent = object.number_or("extent", 2, 1e-12, 1e12);
@@ -81,7 +94,7 @@ ProceduralSpec parse_generator(const JsonNode& node) {
 }
 
 RawLayout parse_raw(const JsonNode& node) {
-  const JsonObject object(node, {"size", "type", "endian", "header_bytes", "encoding"});
+  const JsonObject object(node, {"size", "type", "endian", "header_bytes", "encoding", "member"});
   RawLayout raw;
   raw.size = parse_size(object.at("size"));
   raw.type = parse_type(object.at("type"));
@@ -89,6 +102,7 @@ RawLayout parse_raw(const JsonNode& node) {
   if (raw.type != VoxelType::U8 && !object.has("endian")) object.fail("missing key \"endian\" (\"little\" or \"big\")");
   raw.header_bytes = static_cast<size_t>(whole_or(object, "header_bytes", 0, 0, 1 << 30));
   if (const auto encoding = object.find("encoding")) raw.gzip = encoding->one_of({"raw", "gzip"}) == "gzip";
+  if (const auto member = object.find("member")) raw.member = member->string();
   return raw;
 }
 

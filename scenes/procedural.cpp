@@ -1,63 +1,18 @@
 #include "scenes/procedural.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <numeric>
 
+#include "scenes/noise.h"
 #include "scenes/volume_finish.h"
 
 namespace volumark {
 namespace {
-
-// Perlin, Improving Noise, SIGGRAPH 2002: gradients to the twelve edges of a cube, quintic fade; range about [-1, 1].
-class PerlinNoise {
- public:
-  explicit PerlinNoise(uint32_t seed) {
-    std::iota(table_.begin(), table_.begin() + 256, 0);
-    // Fisher-Yates with splitmix64: unlike std::shuffle and the standard distributions, the same on every library.
-    uint64_t state = seed;
-    for (size_t i = 255; i > 0; --i) {
-      state += 0x9e3779b97f4a7c15;
-      uint64_t z = state;
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-      z ^= z >> 31;
-      std::swap(table_[i], table_[static_cast<size_t>(z % (i + 1))]);
-    }
-    std::copy_n(table_.begin(), 256, table_.begin() + 256);
-  }
-
-  double operator()(const glm::dvec3& q) const {
-    const glm::dvec3 base = glm::floor(q);
-    const glm::dvec3 f = q - base;
-    const glm::dvec3 fade = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
-    const auto lattice = [&](int axis) { return static_cast<size_t>(static_cast<int64_t>(base[axis]) & 255); };
-    const size_t x = lattice(0), y = lattice(1), z = lattice(2);
-    std::array<double, 8> corner;
-    for (size_t c = 0; c < 8; ++c) {
-      const size_t dx = c & 1, dy = (c >> 1) & 1, dz = c >> 2;
-      const size_t hash = table_[table_[table_[x + dx] + y + dy] + z + dz];
-      corner[c] = gradient(hash, f - glm::dvec3(dx, dy, dz));
-    }
-    const auto along_x = [&](size_t c) { return std::lerp(corner[c], corner[c + 1], fade.x); };
-    return std::lerp(std::lerp(along_x(0), along_x(2), fade.y), std::lerp(along_x(4), along_x(6), fade.y), fade.z);
-  }
-
- private:
-  static double gradient(size_t hash, const glm::dvec3& d) {
-    const size_t h = hash & 15;
-    const double u = h < 8 ? d.x : d.y;
-    const double v = h < 4 ? d.y : h == 12 || h == 14 ? d.x : d.z;
-    return ((h & 1) != 0 ? -u : u) + ((h & 2) != 0 ? -v : v);
-  }
-  std::array<size_t, 513> table_{};
-};
 
 double cloud_value(const PerlinCloudField& field, const PerlinNoise& noise, const glm::dvec3& p) {
   double fbm = 0, weight = 1;
@@ -75,6 +30,7 @@ using Sampler = std::function<double(const glm::dvec3& p, const glm::dvec3& u)>;
 
 struct MakeSampler {
   double extent;
+  glm::dvec3 half;  // of the box, in units of p
   Sampler operator()(const ConstantField& f) const {
     return [f](const glm::dvec3&, const glm::dvec3&) { return f.value; };
   }
@@ -90,6 +46,9 @@ struct MakeSampler {
   Sampler operator()(const PerlinCloudField& f) const {
     return
         [f, noise = PerlinNoise(f.seed)](const glm::dvec3& p, const glm::dvec3&) { return cloud_value(f, noise, p); };
+  }
+  Sampler operator()(const VesselTreeField& f) const {
+    return [tree = VesselTree(f, half)](const glm::dvec3& p, const glm::dvec3&) { return tree.value(p); };
   }
 };
 
@@ -162,9 +121,9 @@ Volume make_volume(const ProceduralSpec& spec) {
   }
   const auto n = glm::dvec3(spec.size);
   volume.voxels.resize(static_cast<size_t>(n.x * n.y * n.z) * voxel_bytes(spec.type));
-  const Sampler sample = std::visit(MakeSampler{spec.extent}, spec.field);
   const double to_p = 2 / spec.extent;
   const glm::dvec3 cells = cells_of(spec.size);
+  const Sampler sample = std::visit(MakeSampler{spec.extent, 0.5 * spacing * to_p * cells}, spec.field);
   size_t index = 0;
   for (int k = 0; k < spec.size.z; ++k) {
     for (int j = 0; j < spec.size.y; ++j) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <variant>
 
+#include "scenes/vessel_tree.h"
 #include "scenes/volume.h"
 
 namespace volumark {
@@ -39,7 +40,8 @@ struct PerlinCloudField {
   int octaves = 4;
   double frequency = 2.5, gain = 0.5, radius = 0.55, amplitude = 0.7, steepness = 10;
 };
-using Field = std::variant<ConstantField, DistanceField, RampField, MarschnerLobbField, PerlinCloudField>;
+using Field =
+    std::variant<ConstantField, DistanceField, RampField, MarschnerLobbField, PerlinCloudField, VesselTreeField>;
 
 struct ProceduralSpec {
   Field field;

@@ -19,6 +19,7 @@ files='
 tachyon-doc usr/share/doc/tachyon/examples/scenes/vol/engine.256x256x110 6af2fd00fc9af7d6fcc205f5b2f9945ecddccba91d8f882bbf4ff6a8eaf4a034
 tachyon-doc usr/share/doc/tachyon/examples/scenes/vol/brain.256x256x109 92b0f7dd0cbadd2a5e84fc7a35060145d2a5d6f090bc7ae337a6f55365866bf9
 mricron-data usr/share/mricron/templates/ch2.nii.gz a009051127f64dc3dd554d5f5b589870ea72106d9642c21b4e7093e478cfc309
+invesalius-examples usr/share/doc/invesalius-examples/examples/Cranium.inv3 3b34f11f7c4f557f4c65cd6543c412a2f6ceb0cfecfd9c41184420e02d9b7e2a
 '
 
 # True where the file is installed, or in the cache, with its checksum.

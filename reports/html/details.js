@@ -44,6 +44,7 @@ vm.startDetails = () => {
     [view.frame_wall ? `${vm.ms(view.frame_wall.median)} ms` : 'not timed',
       view.error ? `RMSE ${vm.scientific(view.error.rmse)}` : 'no error',
       view.reference ? `bound ${vm.scientific(view.reference.bound)}` : '',
+      view.jump ? `jump ${vm.scientific(view.jump)}` : '',
       view.shows_nothing ? 'shows nothing' : '',
       view.at_bound ? 'at the reference\u2019s bound' : ''].filter(Boolean).join(', ')]));
   const describe = (result) => {

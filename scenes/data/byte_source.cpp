@@ -31,13 +31,22 @@ bool ByteSource::looks_gzipped(std::span<const std::byte> file) {
   return file.size() >= 2 && file[0] == std::byte{0x1f} && file[1] == std::byte{0x8b};
 }
 
+void ByteSource::limit(size_t count) { left_ = count; }
+
 size_t ByteSource::read_some(std::byte* to, size_t count) {
-  if (!inflate_) {
-    const size_t n = std::min(count, rest_.size());
-    if (n > 0) std::memcpy(to, rest_.data(), n);
-    rest_ = rest_.subspan(n);
-    return n;
-  }
+  const size_t got = inflate_ ? inflate_some(to, std::min(count, left_)) : copy_some(to, std::min(count, left_));
+  left_ -= got;
+  return got;
+}
+
+size_t ByteSource::copy_some(std::byte* to, size_t count) {
+  const size_t n = std::min(count, rest_.size());
+  if (n > 0) std::memcpy(to, rest_.data(), n);
+  rest_ = rest_.subspan(n);
+  return n;
+}
+
+size_t ByteSource::inflate_some(std::byte* to, size_t count) {
   z_stream& z = inflate_->stream;
   size_t done = 0;
   while (done < count && !inflate_->ended) {
@@ -91,8 +100,8 @@ std::vector<std::byte> ByteSource::read_voxels(const glm::dvec3& size, VoxelType
   const size_t expected = checked_bytes(size, type, what_);
   const std::string wanted =
       fmt::format("{} x {} x {} samples of {}: expected {} bytes", size.x, size.y, size.z, to_string(type), expected);
-  if (!inflate_ && rest_.size() != expected) {
-    throw DataError(fmt::format("{}: {}, found {}", what_, wanted, rest_.size()));
+  if (!inflate_ && std::min(rest_.size(), left_) != expected) {
+    throw DataError(fmt::format("{}: {}, found {}", what_, wanted, std::min(rest_.size(), left_)));
   }
   std::vector<std::byte> voxels = read_up_to(expected);
   if (voxels.size() != expected) throw DataError(fmt::format("{}: {}, found {}", what_, wanted, voxels.size()));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,7 +22,8 @@ class ByteSource {
 
   // The next `count` bytes; fewer only at the end of the file.
   std::vector<std::byte> read_up_to(size_t count);
-  void skip(size_t count);  // throws at the end
+  void skip(size_t count);   // throws at the end
+  void limit(size_t count);  // from here on the file ends after so many bytes, as a file within an archive
   // All that is left must be the samples: another number of bytes is an error that states both. Host byte order.
   std::vector<std::byte> read_voxels(const glm::dvec3& size, VoxelType type, bool big_endian);
 
@@ -30,9 +32,12 @@ class ByteSource {
  private:
   struct Inflate;
   size_t read_some(std::byte* to, size_t count);
+  size_t copy_some(std::byte* to, size_t count);
+  size_t inflate_some(std::byte* to, size_t count);
   std::span<const std::byte> rest_;
   std::unique_ptr<Inflate> inflate_;
   std::string what_;
+  size_t left_ = std::numeric_limits<size_t>::max();  // bytes that limit() leaves
 };
 
 }  // namespace volumark

@@ -2,6 +2,7 @@
 
 #include "scenes/data/byte_source.h"
 #include "scenes/data/orientation.h"
+#include "scenes/data/tar.h"
 
 namespace volumark {
 
@@ -11,6 +12,7 @@ Volume read_raw(std::span<const std::byte> file, const RawLayout& layout, NonFin
   volume.size = layout.size;
   volume.type = layout.type;
   ByteSource source(file, layout.gzip, what);
+  if (!layout.member.empty()) enter_tar_member(source, layout.member, what);
   source.skip(layout.header_bytes);
   volume.voxels = source.read_voxels(layout.size, layout.type, layout.big_endian);
   centre_at_origin(volume);

@@ -16,6 +16,7 @@ struct RawLayout {
   bool big_endian = false;
   size_t header_bytes = 0;  // skipped, after decompression
   bool gzip = false;
+  std::string member{};  // the samples are this file of a tar archive; empty: no archive
 };
 
 // Spacing 1, centred at the world's origin. Throws DataError.
