@@ -144,12 +144,9 @@ float correct_opacity(float a, float ratio) {
 
 // ---- Lighting (scenes/scene.h) ----
 #ifndef VM_WITHOUT_LIGHTING
-// What the colour is multiplied by (diffuse) and what is added to it (specular) at a sample.
-void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
-  diffuse = vec3(vm.lighting.x);
-  specular = vec3(0.);
-  vec3 g = sample_gradient(box);
-  vec3 n = g / -max(length(g), vm.gradient_scale.w);
+// Adds what the lights do at a point of unit normal n (or shorter, where the direction is not known): to what the colour
+// is multiplied by (diffuse) and to what is added to it (specular).
+void add_lights(vec3 n, vec3 box, inout vec3 diffuse, inout vec3 specular) {
   vec3 local = (box - .5) * vm.extent.xyz;
   // Without branches on uniforms: lavapipe would build the program anew for every frame's values of them.
   vec3 v = normalize(mix(-vm.forward.xyz, vm.eye.xyz - local, vm.eye.w));
@@ -166,6 +163,16 @@ void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
       if (nh > 0.) specular += vm.lights[i].colour.rgb * (vm.lighting.z * pow(nh, vm.lighting.w));
     }
   }
+}
+
+// The normal of a gradient as sample_gradient() returns it.
+vec3 normal_of(vec3 g) { return g / -max(length(g), vm.gradient_scale.w); }
+
+// The same at a sample, with the ambient light.
+void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
+  diffuse = vec3(vm.lighting.x);
+  specular = vec3(0.);
+  add_lights(normal_of(sample_gradient(box)), box, diffuse, specular);
 }
 #endif
 

@@ -218,19 +218,14 @@ HWY_INLINE Floats power_of(Floats x, float power) {
   return hn::Sub(splat(1.F), opacity_of<false>(depth));
 }
 
-HWY_INLINE Light3 light_sample(const VolumeBindings& b, const Floats3& box) {
-  const VolumeUniforms& vm = b.vm;
+// Adds to `sum` what the lights do at points of normal n.
+HWY_INLINE void add_lights(const VolumeUniforms& vm, const Floats3& n, const Floats3& box, Light3& sum) {
   const Floats zero = splat(0.F);
-  const Floats3 g = sample_gradient(b, box);
-  const float least = defect(Defect::UnboundedNormal) ? 0.F : vm.gradient_scale[3];
-  const Floats3 n = scaled(g, hn::Div(splat(-1.F), hn::Max(hn::Sqrt(dot(g, g)), splat(least))));
   const Floats3 local = scaled(
       Floats3{hn::Sub(box.x, splat(.5F)), hn::Sub(box.y, splat(.5F)), hn::Sub(box.z, splat(.5F))} * splat3(vm.extent),
       splat(1.F));
   const Floats3 v = vm.eye[3] > 0 ? normalised(splat3(vm.eye) - local) : scaled(splat3(vm.forward), splat(-1.F));
   const bool two_sided = vm.counts[3] > 0;
-  const Floats ambient = splat(vm.lighting[0]);
-  Light3 sum{{ambient, ambient, ambient}, {zero, zero, zero}};
   for (int i = 0; i < static_cast<int>(vm.counts[0]); ++i) {
     const VolumeLight& light = vm.lights[i];
     const Floats3 colour = splat3(light.colour);
@@ -248,6 +243,17 @@ HWY_INLINE Light3 light_sample(const VolumeBindings& b, const Floats3& box) {
       sum.specular = along(sum.specular, hn::IfThenElse(lit, shine, zero), colour);
     }
   }
+}
+
+HWY_INLINE Floats3 normal_of(const VolumeUniforms& vm, const Floats3& g) {
+  const float least = defect(Defect::UnboundedNormal) ? 0.F : vm.gradient_scale[3];
+  return scaled(g, hn::Div(splat(-1.F), hn::Max(hn::Sqrt(dot(g, g)), splat(least))));
+}
+
+HWY_INLINE Light3 light_sample(const VolumeBindings& b, const Floats3& box) {
+  const Floats ambient = splat(b.vm.lighting[0]), zero = splat(0.F);
+  Light3 sum{{ambient, ambient, ambient}, {zero, zero, zero}};
+  add_lights(b.vm, normal_of(b.vm, sample_gradient(b, box)), box, sum);
   return sum;
 }
 
