@@ -34,8 +34,11 @@ double extinction_of(const JsonObject& point, const JsonObject& transfer) {
 
 std::string canonical_text(nlohmann::json document) {
   for (const char* key : {"title", "description"}) document.erase(key);
+  const bool shell = document.contains("shell");
   for (const char* key : {"file", "package", "package_path", "licence", "source", "bytes", "sha256"}) {
-    document["volume"].erase(key);
+    if (!shell) document["volume"].erase(key);
+    if (shell) document["shell"]["mesh"].erase(key);
+    if (shell) document["shell"]["texture"].erase(key);
   }
   for (nlohmann::json& view : document["views"]) view.erase("name");
   return fmt::format("volumark scene, meaning {}\n{}\n", kMeaning, document.dump());
@@ -88,7 +91,7 @@ Scene parse_scene(std::string_view text, const std::string& path) {
   const nlohmann::json document = parse_json(text, path);
   const JsonObject root(JsonNode(document, "", path),
                         {"volumark_scene", "title", "description", "volume", "transfer", "views", "image", "background",
-                         "effects", "isosurface", "slice_plane"});
+                         "effects", "isosurface", "slice_plane", "shell"});
   root.at("volumark_scene").integer(1, 1);
   Scene scene;
   auto plan = std::make_shared<ScenePlan>();
@@ -96,8 +99,16 @@ Scene parse_scene(std::string_view text, const std::string& path) {
   scene.name = std::filesystem::path(path).stem().string();
   scene.title = root.at("title").string();
   if (const auto description = root.find("description")) scene.description = description->string(true);
-  plan->volume = parse_volume(root.at("volume"));
-  scene.transfer = parse_transfer(root.at("transfer"));
+  if (const auto shell = root.find("shell")) {
+    for (const char* key : {"volume", "transfer", "isosurface", "slice_plane"}) {
+      if (root.has(key)) root.at(key).fail(fmt::format("a scene with a \"shell\" has no \"{}\"", key));
+    }
+    plan->shell = parse_shell(*shell);
+    scene.display = Display::Shell;
+  } else {
+    plan->volume = parse_volume(root.at("volume"));
+    scene.transfer = parse_transfer(root.at("transfer"));
+  }
   parse_views(root.at("views"), scene, *plan);
   if (const auto image = root.find("image")) {
     const JsonObject size(*image, {"width", "height"});

@@ -17,13 +17,6 @@ VoxelType parse_type(const JsonNode& node) {
                          : VoxelType::F32;
 }
 
-// A number (the same on all axes) or three.
-glm::ivec3 parse_size(const JsonNode& node) {
-  if (node.is_number()) return glm::ivec3(node.integer(1, 65536));
-  const std::vector<JsonNode> sides = node.array(3, 3);
-  return {sides[0].integer(1, 65536), sides[1].integer(1, 65536), sides[2].integer(1, 65536)};
-}
-
 int whole_or(const JsonObject& object, const char* key, int fallback, int lo, int hi) {
   return object.has(key) ? object.at(key).integer(lo, hi) : fallback;
 }
@@ -124,6 +117,14 @@ std::string parse_sha256(const JsonNode& node) {
   return text;
 }
 
+}  // namespace
+
+glm::ivec3 parse_size(const JsonNode& node) {
+  if (node.is_number()) return glm::ivec3(node.integer(1, 65536));
+  const std::vector<JsonNode> sides = node.array(3, 3);
+  return {sides[0].integer(1, 65536), sides[1].integer(1, 65536), sides[2].integer(1, 65536)};
+}
+
 FileSpec parse_file(const JsonObject& object) {
   FileSpec spec;
   spec.file = object.at("file").string();
@@ -146,8 +147,6 @@ FileSpec parse_file(const JsonObject& object) {
   }
   return spec;
 }
-
-}  // namespace
 
 std::variant<ProceduralSpec, FileSpec> parse_volume(const JsonNode& node) {
   const JsonObject object(node, {"generator", "file", "package", "package_path", "sha256", "bytes", "licence", "source",

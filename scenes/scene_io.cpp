@@ -15,6 +15,7 @@
 #include "scenes/nearest.h"
 #include "scenes/scene_plan.h"
 #include "scenes/sha256.h"
+#include "scenes/shell.h"
 
 namespace volumark {
 namespace {
@@ -38,25 +39,93 @@ bool is_scene_file(const fs::path& path) {
   return path.extension() == ".json" && !path.stem().string().ends_with(".schema");
 }
 
-// Data of a file, checked against the checksum that the scene states.
-std::shared_ptr<const Volume> load_file(const FileSpec& spec, Scene& scene, const DataOptions& options) {
-  const fs::path path = find_data(spec, scene.path, options);
-  const std::vector<std::byte> bytes = read_file_bytes(path);
-  scene.source.path = path.string();
-  // The search has compared the checksum where the scene states one.
-  scene.source.sha256 = file_sha256(path);
-  return std::make_shared<const Volume>(read_volume(spec, bytes, path));
+// The files that a scene needs; none: it is procedural.
+std::vector<const FileSpec*> files_of(const ScenePlan& plan) {
+  std::vector<const FileSpec*> files;
+  const auto add = [&](const FileSpec* spec) {
+    if (spec != nullptr) files.push_back(spec);
+  };
+  if (plan.shell) {
+    add(std::get_if<FileSpec>(&plan.shell->mesh));
+    add(std::get_if<FileSpec>(&plan.shell->texture));
+  } else {
+    add(std::get_if<FileSpec>(&plan.volume));
+  }
+  return files;
 }
 
+std::string joined(const std::vector<std::string>& items) {
+  std::string list;
+  for (const std::string& item : items) list += (list.empty() ? "" : ", ") + item;
+  return list;
+}
+
+// What a shell's two files have in common stands once; what differs, with a comma between.
 DataSource describe(const ScenePlan& plan) {
-  if (std::holds_alternative<ProceduralSpec>(plan.volume)) return {"procedural", "", "", "", ""};
-  const auto& spec = std::get<FileSpec>(plan.volume);
-  return {spec.package.empty() ? "file" : "debian:" + spec.package, "", spec.sha256, spec.licence, how_to_get(spec)};
+  const std::vector<const FileSpec*> files = files_of(plan);
+  if (files.empty()) return {"procedural", "", "", "", ""};
+  std::vector<std::string> origins, checksums, licences, ways;
+  const auto add = [](std::vector<std::string>& list, const std::string& item) {
+    if (!item.empty() && std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
+  };
+  for (const FileSpec* spec : files) {
+    add(origins, spec->package.empty() ? "file" : "debian:" + spec->package);
+    add(licences, spec->licence);
+    add(ways, how_to_get(*spec));
+    if (!spec->sha256.empty()) checksums.push_back(spec->sha256);
+  }
+  if (checksums.size() < files.size()) checksums.clear();  // not known before all are read
+  return {joined(origins), "", joined(checksums), joined(licences), joined(ways)};
+}
+
+// Finds and reads the files of one scene, and remembers which they were.
+class Files {
+ public:
+  Files(const Scene& scene, const DataOptions& options) : scene_(scene), options_(options) {}
+  std::vector<std::byte> operator()(const FileSpec& spec) {
+    const fs::path path = find_data(spec, scene_.path, options_);
+    std::vector<std::byte> bytes = read_file_bytes(path);
+    paths_.push_back(path.string());
+    // The search has compared the checksum where the scene states one.
+    checksums_.push_back(file_sha256(path));
+    return bytes;
+  }
+  const std::vector<std::string>& paths() const { return paths_; }
+  void note_in(DataSource& source) const {
+    if (paths_.empty()) return;
+    source.path = joined(paths_);
+    source.sha256 = joined(checksums_);
+  }
+
+ private:
+  const Scene& scene_;
+  const DataOptions& options_;
+  std::vector<std::string> paths_, checksums_;
+};
+
+// Both return what "units": "radius" refers to.
+VolumeFrame read_shell(Scene& scene, Files& files) {
+  scene.shell =
+      std::make_shared<const Shell>(load_shell(*scene.plan->shell, [&](const FileSpec& spec) { return files(spec); }));
+  const ShellBounds bounds = bounds_of(*scene.shell);
+  return {0.5 * (bounds.lo + bounds.hi), 0.5 * glm::length(bounds.hi - bounds.lo)};
+}
+
+VolumeFrame read_volume(Scene& scene, Files& files) {
+  if (const auto* spec = std::get_if<ProceduralSpec>(&scene.plan->volume)) {
+    scene.volume = std::make_shared<const Volume>(make_volume(*spec));
+  } else {
+    const auto& file = std::get<FileSpec>(scene.plan->volume);
+    const std::vector<std::byte> bytes = files(file);
+    scene.volume = std::make_shared<const Volume>(volumark::read_volume(file, bytes, files.paths().back()));
+  }
+  const glm::dmat4 box = scene.volume->box_to_world();
+  return {glm::dvec3(box * glm::dvec4(0.5, 0.5, 0.5, 1)), glm::length(scene.volume->extent()) / 2};
 }
 
 // The checksum of a detached NRRD header says nothing about its voxels: then they count too, once they are there.
 bool is_detached(const ScenePlan& plan) {
-  const auto* spec = std::get_if<FileSpec>(&plan.volume);
+  const auto* spec = plan.shell ? nullptr : std::get_if<FileSpec>(&plan.volume);
   return spec != nullptr && !spec->raw && spec->file.ends_with(".nhdr");
 }
 
@@ -148,16 +217,11 @@ void describe_source(Scene& scene) {
 }
 
 void load_data(Scene& scene, const DataOptions& options) {
-  if (scene.volume || !scene.plan) return;
-  const ScenePlan& plan = *scene.plan;
-  if (const auto* spec = std::get_if<ProceduralSpec>(&plan.volume)) {
-    scene.volume = std::make_shared<const Volume>(make_volume(*spec));
-  } else {
-    scene.volume = load_file(std::get<FileSpec>(plan.volume), scene, options);
-  }
-  const glm::dmat4 box = scene.volume->box_to_world();
-  const VolumeFrame frame{glm::dvec3(box * glm::dvec4(0.5, 0.5, 0.5, 1)), glm::length(scene.volume->extent()) / 2};
-  for (const auto& place : plan.placements) place(scene, frame);
+  if (scene.volume || scene.shell || !scene.plan) return;
+  Files files(scene, options);
+  const VolumeFrame frame = scene.plan->shell ? read_shell(scene, files) : read_volume(scene, files);
+  files.note_in(scene.source);
+  for (const auto& place : scene.plan->placements) place(scene, frame);
   set_hash(scene);
 }
 
