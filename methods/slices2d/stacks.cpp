@@ -44,6 +44,15 @@ std::vector<std::byte> page_texels(const StackLayout& layout, const StackPage& p
   return out;
 }
 
+// Vectors in RGB with the axes of the stack's frame.
+void turn_vectors(std::vector<std::byte>& texels, size_t texel, int axis) {
+  const size_t channel = texel / 4, first = static_cast<size_t>((axis + 1) % 3) * channel;
+  for (size_t at = 0; at < texels.size(); at += texel) {
+    std::byte* vector = texels.data() + at;
+    std::rotate(vector, vector + first, vector + 3 * channel);
+  }
+}
+
 // The ray that stands for the view (best_stack).
 glm::dvec3 main_direction(const Volume& volume, const ViewRays& rays) {
   if (!rays.perspective) return rays.forward;
@@ -136,30 +145,29 @@ int best_stack(const Volume& volume, const ViewRays& rays) {
   return best;
 }
 
-SliceStacks::SliceStacks(const Scene& scene, const VolumeSettings& settings, Device& device)
-    : device_(device), table_size_(settings.table_size) {
+SliceStacks::SliceStacks(const Scene& scene, const StackSettings& settings, Device& device)
+    : device_(device), table_size_(settings.volume.table_size) {
   // The destructor does not run when a constructor throws: a refused texture must not leak the ones before it.
   try {
-    const VolumeTexels texels = volume_texels(scene, settings);
-    value_origin_ = texels.value_origin;
-    value_scale_ = texels.value_scale;
     const glm::ivec3 size = scene.volume->size;
     for (int axis = 0; axis < 3; ++axis) {
       const std::optional<StackLayout> layout = stack_layout(size, axis, device.info().limits.texture_2d);
       if (!layout) throw std::runtime_error(fmt::format("slices of {}x{}x{} do not fit", size.x, size.y, size.z));
       Stack& stack = stacks_[static_cast<size_t>(axis)];
       stack.layout = *layout;
-      for (const StackPage& page : layout->pages) {
-        const std::vector<std::byte> data =
-            page_texels(*layout, page, size, texels.of(*scene.volume), texel_bytes(texels.format));
-        TextureDesc desc;
-        desc.label = fmt::format("stack {}, slices {} to {}", "ijk"[axis], page.first, page.last);
-        desc.format = texels.format;
-        desc.width = layout->extent(page).x;
-        desc.height = layout->extent(page).y;
-        desc.data = data;
-        stack.pages.push_back(create(desc));
-      }
+      stack.pages.resize(layout->pages.size());
+    }
+    if (settings.gradient) {
+      // First, for its values give way to those of the data.
+      const GradientTexels gradients = gradient_texels(scene, *settings.gradient);
+      value_origin_ = gradients.value_origin;
+      value_scale_ = gradients.value_scale;
+      vector_scale_ = gradients.scale;
+      vector_offset_ = gradients.offset;
+      if (settings.data) add_data(scene, settings.volume);
+      add_texture("gradients", size, gradients.format, gradients.texels, true);
+    } else {
+      add_data(scene, settings.volume);
     }
     const std::vector<float> table = transfer_table(scene.transfer, table_size_);
     TextureDesc desc;
@@ -174,11 +182,38 @@ SliceStacks::SliceStacks(const Scene& scene, const VolumeSettings& settings, Dev
   }
 }
 
+void SliceStacks::add_data(const Scene& scene, const VolumeSettings& settings) {
+  const VolumeTexels texels = volume_texels(scene, settings);
+  value_origin_ = texels.value_origin;
+  value_scale_ = texels.value_scale;
+  add_texture("data", scene.volume->size, texels.format, texels.of(*scene.volume), false);
+}
+
+void SliceStacks::add_texture(const char* label, const glm::ivec3& size, Format format,
+                              std::span<const std::byte> texels, bool vectors) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Stack& stack = stacks_[static_cast<size_t>(axis)];
+    for (size_t i = 0; i < stack.pages.size(); ++i) {
+      const StackPage& page = stack.layout.pages[i];
+      std::vector<std::byte> data = page_texels(stack.layout, page, size, texels, texel_bytes(format));
+      if (vectors) turn_vectors(data, texel_bytes(format), axis);
+      TextureDesc desc;
+      desc.label = fmt::format("{}, stack {}, slices {} to {}", label, "ijk"[axis], page.first, page.last);
+      desc.format = format;
+      desc.width = stack.layout.extent(page).x;
+      desc.height = stack.layout.extent(page).y;
+      desc.data = data;
+      stack.pages[i].push_back(create(desc));
+    }
+  }
+}
+
 SliceStacks::~SliceStacks() { release(); }
 
 void SliceStacks::release() {
   for (Stack& stack : stacks_)
-    for (const Texture page : stack.pages) device_.destroy(page);
+    for (const std::vector<Texture>& page : stack.pages)
+      for (const Texture texture : page) device_.destroy(texture);
   if (transfer_) device_.destroy(transfer_);
 }
 
@@ -188,18 +223,24 @@ Texture SliceStacks::create(const TextureDesc& desc) {
   return texture;
 }
 
-std::vector<BindingDecl> SliceStacks::declarations() {
-  return {{0, BindingKind::Uniform, 0}, {2, BindingKind::Sampled, 1}, {4, BindingKind::Sampled, 2}};
+std::vector<BindingDecl> SliceStacks::declarations(int textures) {
+  std::vector<BindingDecl> slots = {{0, BindingKind::Uniform, 0}, {2, BindingKind::Sampled, 1}};
+  for (int i = 0; i < textures; ++i) slots.push_back({static_cast<uint32_t>(4 + i), BindingKind::Sampled, 2});
+  return slots;
 }
 
 std::vector<Binding> SliceStacks::bindings(int axis, int page, const Binding& uniforms) const {
-  const Texture texture = stacks_[static_cast<size_t>(axis)].pages[static_cast<size_t>(page)];
-  return {uniforms, bind_sampled(2, transfer_, {Filter::Nearest, Wrap::Clamp}),  // read by texelFetch
-          bind_sampled(4, texture, {Filter::Linear, Wrap::Clamp})};
+  std::vector<Binding> slots = {uniforms,
+                                bind_sampled(2, transfer_, {Filter::Nearest, Wrap::Clamp})};  // read by texelFetch
+  uint32_t slot = 4;
+  for (const Texture texture : stacks_[static_cast<size_t>(axis)].pages[static_cast<size_t>(page)])
+    slots.push_back(bind_sampled(slot++, texture, {Filter::Linear, Wrap::Clamp}));
+  return slots;
 }
 
 void SliceStacks::fill(VolumeUniforms& uniforms) const {
   uniforms.value = {value_origin_, value_scale_, static_cast<float>(table_size_ - 1), 0};
+  uniforms.texel = {vector_scale_, vector_offset_, 0, 0};
 }
 
 std::optional<std::string> stacks_unsupported(const Scene& scene, const VolumeSettings& settings,

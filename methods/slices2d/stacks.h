@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "backends/device.h"
+#include "methods/volume/gradient_texels.h"
 #include "methods/volume/volume_resources.h"
 
 namespace volumark {
@@ -56,28 +57,42 @@ VolumeUniforms turned(const VolumeUniforms& uniforms, int axis);
 // in the picture or the eye is inside the volume. Ties (to 1e-9): k before j before i, k being the order of storage.
 int best_stack(const Volume& volume, const ViewRays& rays);
 
+// What the stacks hold: the data, the gradients, or both in textures of their own (rezksalama2000, sections 7 and 8).
+struct StackSettings {
+  VolumeSettings volume;  // classification Post (scalars) or Pre (associated colours)
+  bool data = true;       // false: no texture of the data
+  // Gradients, with the axes of the stack's frame.
+  std::optional<GradientSettings> gradient = std::nullopt;
+};
+
 // The three stacks and the transfer table on a Device. Owns them; dies before the Device.
 class SliceStacks {
  public:
-  // classification Post (scalars) or Pre (associated colours).
-  SliceStacks(const Scene& scene, const VolumeSettings& settings, Device& device);
+  SliceStacks(const Scene& scene, const VolumeSettings& settings, Device& device)
+      : SliceStacks(scene, StackSettings{settings}, device) {}
+  SliceStacks(const Scene& scene, const StackSettings& settings, Device& device);
   ~SliceStacks();
   SliceStacks(const SliceStacks&) = delete;
   SliceStacks& operator=(const SliceStacks&) = delete;
 
   const StackLayout& layout(int axis) const { return stacks_[static_cast<size_t>(axis)].layout; }
-  // The uniform block (0) and transfer table (2) of volume_common.glsl, and one page (4).
-  static std::vector<BindingDecl> declarations();
+  // The uniform block (0) and transfer table (2) of volume_common.glsl, and the textures of one page, from slot 4 on:
+  // data (where there are any), then gradients.
+  static std::vector<BindingDecl> declarations(int textures = 1);
   std::vector<Binding> bindings(int axis, int page, const Binding& uniforms) const;
-  // Sets uniforms.value.
+  // Sets uniforms.value and uniforms.texel: a gradient is texel * x + y (stacks have no other use for it).
+  // Call it behind turned().
   void fill(VolumeUniforms& uniforms) const;
   size_t texture_bytes() const { return texture_bytes_; }
 
  private:
   struct Stack {
     StackLayout layout;
-    std::vector<Texture> pages;
+    std::vector<std::vector<Texture>> pages;  // the textures of each
   };
+  void add_data(const Scene& scene, const VolumeSettings& settings);
+  void add_texture(const char* label, const glm::ivec3& size, Format format, std::span<const std::byte> texels,
+                   bool vectors);
   Texture create(const TextureDesc& desc);
   void release();
 
@@ -85,6 +100,7 @@ class SliceStacks {
   std::array<Stack, 3> stacks_;
   Texture transfer_;
   float value_origin_ = 0, value_scale_ = 1;
+  float vector_scale_ = 1, vector_offset_ = 0;
   int table_size_ = 0;
   size_t texture_bytes_ = 0;
 };

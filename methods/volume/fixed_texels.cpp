@@ -1,11 +1,10 @@
 // The 8-bit data of the effect fixed_point: palette, texels of the transfer window, stored normals.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "methods/volume/fixed_point.h"
+#include "methods/volume/sample_gradients.h"
 
 namespace volumark {
 namespace {
@@ -22,69 +21,6 @@ uint8_t product(int a, int b) {
   const int p = a * b;
   return static_cast<uint8_t>((p + (p >> 8) + 128) >> 8);
 }
-
-// Data values in widths of the transfer window.
-std::vector<float> window_values(const Scene& scene) {
-  const Volume& volume = *scene.volume;
-  const size_t count =
-      static_cast<size_t>(volume.size.x) * static_cast<size_t>(volume.size.y) * static_cast<size_t>(volume.size.z);
-  const double width = scene.transfer.hi - scene.transfer.lo;
-  const double slope = volume.slope / width, intercept = (volume.intercept - scene.transfer.lo) / width;
-  std::vector<float> values(count);
-  const auto convert = [&](auto stored) {
-    for (size_t i = 0; i < count; ++i) {
-      std::memcpy(&stored, volume.voxels.data() + i * sizeof(stored), sizeof(stored));
-      values[i] = static_cast<float>(static_cast<double>(stored) * slope + intercept);
-    }
-  };
-  switch (volume.type) {
-    case VoxelType::U8:
-      convert(uint8_t{});
-      break;
-    case VoxelType::U16:
-      convert(uint16_t{});
-      break;
-    case VoxelType::I16:
-      convert(int16_t{});
-      break;
-    case VoxelType::F32:
-      convert(float{});
-      break;
-  }
-  return values;
-}
-
-// Normals of scenes/scene.h, at the samples and normalised there: the boards had no square root behind the filter.
-class Normals {
- public:
-  Normals(const Scene& scene, const std::vector<float>& values)
-      : values_(values),
-        size_(scene.volume->size),
-        per_world_(0.5 / scene.volume->spacing),
-        floor_(gradient_floor(*scene.effects.lighting, scene.transfer, *scene.volume) /
-               (scene.transfer.hi - scene.transfer.lo)) {}
-
-  glm::dvec3 at(int i, int j, int k) const {
-    const size_t row = static_cast<size_t>(size_.x), slice = row * static_cast<size_t>(size_.y);
-    const auto here = static_cast<size_t>(k) * slice + static_cast<size_t>(j) * row + static_cast<size_t>(i);
-    const glm::dvec3 gradient =
-        per_world_ * glm::dvec3(difference(here, 1, i, size_.x), difference(here, row, j, size_.y),
-                                difference(here, slice, k, size_.z));
-    return gradient * (-1 / std::max(glm::length(gradient), floor_));
-  }
-
- private:
-  // From the sample before to the one after, each clamped to the lattice.
-  double difference(size_t here, size_t stride, int index, int size) const {
-    const float after = values_[index + 1 < size ? here + stride : here];
-    return static_cast<double>(after - values_[index > 0 ? here - stride : here]);
-  }
-
-  const std::vector<float>& values_;
-  glm::ivec3 size_;
-  glm::dvec3 per_world_;
-  double floor_;
-};
 
 }  // namespace
 
@@ -118,14 +54,15 @@ std::vector<uint8_t> fixed_texels(const Scene& scene, const FixedSettings& setti
     for (const float value : values) texels.push_back(level_of(static_cast<double>(value)));
     return texels;
   }
-  const Normals normals(scene, values);
+  // Normalised at the samples: the boards had no square root behind the filter.
+  const SampleGradients gradients(scene, values);
   const glm::ivec3 size = scene.volume->size;
   texels.resize(values.size() * 4);
   size_t texel = 0;
   for (int k = 0; k < size.z; ++k) {
     for (int j = 0; j < size.y; ++j) {
       for (int i = 0; i < size.x; ++i, ++texel) {
-        const glm::dvec3 normal = normals.at(i, j, k);
+        const glm::dvec3 normal = gradients.normal(i, j, k);
         for (int axis = 0; axis < 3; ++axis) {
           texels[4 * texel + static_cast<size_t>(axis)] = level_of(0.5 * normal[axis] + 0.5);
         }

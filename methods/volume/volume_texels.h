@@ -23,4 +23,7 @@ struct VolumeTexels {
 // of as many bits a channel. `scene.volume` is loaded.
 VolumeTexels volume_texels(const Scene& scene, const VolumeSettings& settings);
 
+// Writes channel number `index` of texels of `format`: from 0..1 to nearest, or any value for float formats.
+void put_channel(std::vector<std::byte>& texels, Format format, size_t index, double value);
+
 }  // namespace volumark

@@ -62,7 +62,13 @@ void put(std::vector<std::byte>& texels, size_t index, T value) {
   std::memcpy(texels.data() + index * sizeof(T), &value, sizeof(T));
 }
 
-// One channel of a texel, from 0..1 (any value for float formats).
+// data value = stored * slope + intercept.
+struct Line {
+  double slope, intercept;
+};
+
+}  // namespace
+
 void put_channel(std::vector<std::byte>& texels, Format format, size_t index, double value) {
   switch (format) {
     case Format::R8:
@@ -77,13 +83,6 @@ void put_channel(std::vector<std::byte>& texels, Format format, size_t index, do
       return put(texels, index, static_cast<float>(value));
   }
 }
-
-// data value = stored * slope + intercept.
-struct Line {
-  double slope, intercept;
-};
-
-}  // namespace
 
 std::span<const std::byte> VolumeTexels::of(const Volume& volume) const {
   if (converted.empty()) return volume.voxels;
