@@ -37,6 +37,9 @@ struct Tip {
   int generation;
 };
 
+// What makes a tree of it, in parts of the direction a step.
+const glm::dvec3 kUpwards(0, 0.07, 0);
+
 class Growth {
  public:
   Growth(const VesselTreeField& field, const glm::dvec3& half)
@@ -58,10 +61,10 @@ class Growth {
  private:
   // A winding stretch up to the next fork.
   Tip vessel(Tip tip) {
-    const double length = random_.between(4, 7.5) * std::sqrt(tip.radius * field_.radius);
+    const double length = random_.between(4.5, 8) * std::sqrt(tip.radius * field_.radius);
     const int steps = std::max(2, static_cast<int>(std::ceil(length / (1.5 * tip.radius))));
     for (int i = 0; i < steps; ++i) {
-      const glm::dvec3 bent = tip.direction + random_.in_cube() * 0.3 + away_from_walls(tip.at);
+      const glm::dvec3 bent = tip.direction + random_.in_cube() * 0.24 + kUpwards + push_of_walls(tip);
       tip.direction = glm::normalize(bent);
       const glm::dvec3 to = tip.at + tip.direction * (length / steps);
       const double radius = tip.radius * std::pow(0.97, 1.0 / steps);
@@ -72,13 +75,12 @@ class Growth {
     return tip;
   }
 
-  glm::dvec3 away_from_walls(const glm::dvec3& at) const {
+  // Back into the box, from the outer fifth of it on; not on the trunk, which comes in through the face below.
+  glm::dvec3 push_of_walls(const Tip& tip) const {
     glm::dvec3 push(0);
-    for (int axis = 0; axis < 3; ++axis) {
-      const double inside = 0.8 * half_[axis], beyond = std::abs(at[axis]) - inside;
-      // Not along y below: the trunk comes in there.
-      if (beyond > 0 && !(axis == 1 && at.y < 0))
-        push[axis] = -std::copysign(3 * beyond / (0.2 * half_[axis]), at[axis]);
+    for (int axis = 0; axis < 3 && tip.generation > 0; ++axis) {
+      const double beyond = std::abs(tip.at[axis]) - 0.8 * half_[axis];
+      if (beyond > 0) push[axis] = -std::copysign(3 * beyond / (0.2 * half_[axis]), tip.at[axis]);
     }
     return push;
   }
