@@ -10,6 +10,8 @@
 // A program that includes this text declares bindings 0..3 and constants 0..5; its own start at binding 4, constant 6.
 // Effects. A constant of 0 removes what simulates an effect; VM_WITHOUT_LIGHTING and VM_WITHOUT_CLIP_PLANES, defined in
 // front of this text, remove its words too: what is compiled then must be the same, and a test compares.
+// VM_NORMALS_GIVEN, defined in front of it, is for programs whose normals do not come from the 3D texture: they light by
+// add_lights themselves, and shade_segment and shade_preintegrated do not.
 // Period arithmetic (fixed_point) is no branch of these programs but programs of its own: fixed_point.glsl.
 VM_SPEC(0, VM_CLASSIFICATION, 0)  // 0 post, 1 pre, 2 pre-integrated
 VM_SPEC(1, VM_LINEAR_OPACITY, 0)  // 1: alpha = min(tau d, 1) instead of 1 - exp(-tau d)
@@ -91,7 +93,10 @@ float sample_at(vec3 position) { return (textureLod(volume_texture, position, 0.
 float sample_value(vec3 box) { return sample_at(texture_position(box)); }
 vec4 sample_classified(vec3 box) { return textureLod(volume_texture, texture_position(box), 0.); }
 
-#ifndef VM_WITHOUT_LIGHTING
+#if !defined(VM_WITHOUT_LIGHTING) && !defined(VM_NORMALS_GIVEN)
+#define VM_SAMPLES_NORMALS
+#endif
+#ifdef VM_SAMPLES_NORMALS
 // Central differences one sample apart, clamped at the border: equal to interpolating the stored gradient of
 // scenes/scene.h. Change of s_n per two smallest spacings, local frame.
 vec3 sample_gradient(vec3 box) {
@@ -167,7 +172,9 @@ void add_lights(vec3 n, vec3 box, inout vec3 diffuse, inout vec3 specular) {
 
 // The normal of a gradient as sample_gradient() returns it.
 vec3 normal_of(vec3 g) { return g / -max(length(g), vm.gradient_scale.w); }
+#endif
 
+#ifdef VM_SAMPLES_NORMALS
 // The same at a sample, with the ambient light.
 void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
   diffuse = vec3(vm.lighting.x);
@@ -181,7 +188,7 @@ void light_sample(vec3 box, out vec3 diffuse, out vec3 specular) {
 vec4 shade_segment(vec4 point, float len, vec3 box) {
   float alpha = opacity_of(point.a * len);
   vec3 colour = point.rgb;
-#ifndef VM_WITHOUT_LIGHTING
+#ifdef VM_SAMPLES_NORMALS
   if (VM_LIGHTS > 0) {
     if (alpha <= 0.) return vec4(0.);
     vec3 diffuse, specular;
@@ -197,7 +204,7 @@ vec4 shade_preintegrated(vec4 mean, float len, vec3 box) {
   float x = mean.a * len;
   float alpha = opacity_of(x);
   vec3 colour = mean.rgb * (x > 1e-30 ? alpha / mean.a : len);
-#ifndef VM_WITHOUT_LIGHTING
+#ifdef VM_SAMPLES_NORMALS
   if (VM_LIGHTS > 0) {
     if (alpha <= 0.) return vec4(0.);
     vec3 diffuse, specular;
