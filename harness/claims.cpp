@@ -297,6 +297,8 @@ bool matches(const CellSelector& selector, const CellKey& key) {
 
 const CellKey* partner(const CellKey& cell, const CellSelector& of, const CellSelector& against,
                        const std::vector<CellKey>& keys) {
+  // Each of them names its one scene: an isosurface against the same data shown directly.
+  const bool across = of.scenes.size() == 1 && against.scenes.size() == 1;
   const auto agrees = [&](const CellKey& key) {
     if (key.method != cell.method) return true;
     return std::all_of(cell.params.begin(), cell.params.end(), [&](const auto& param) {
@@ -307,7 +309,8 @@ const CellKey* partner(const CellKey& cell, const CellSelector& of, const CellSe
   };
   const CellKey* out = nullptr;
   for (const CellKey& key : keys) {
-    if (key.scene != cell.scene || key.backend != cell.backend || !matches(against, key) || !agrees(key)) continue;
+    if ((!across && key.scene != cell.scene) || key.backend != cell.backend) continue;
+    if (!matches(against, key) || !agrees(key)) continue;
     if (out != nullptr) return nullptr;
     out = &key;
   }

@@ -57,7 +57,8 @@ struct Claims {
 // Not of variants, which draw another picture.
 bool matches(const CellSelector& selector, const CellKey& key);
 
-// The one cell of `against` that `cell` is held against: on the same scene and backend, and with the same value of each
+// The one cell of `against` that `cell` is held against: on the same backend, on the same scene unless each of the two
+// selectors names one, and with the same value of each
 // parameter that none of the two selectors names, where both are of one method. Null: none, or several.
 const CellKey* partner(const CellKey& cell, const CellSelector& of, const CellSelector& against,
                        const std::vector<CellKey>& keys);

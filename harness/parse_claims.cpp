@@ -9,18 +9,31 @@
 #include <set>
 
 #include "reports/measures.h"
+#include "scenes/errors.h"
 #include "scenes/nearest.h"
+#include "scenes/scene_io.h"
 
 namespace volumark {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+// Whether the method draws what the scene shows; the planner leaves out a pair that does not. A scene that cannot be
+// read is reported there, and taken for any.
+bool draws(const Method& method, const std::string& scene) {
+  try {
+    return !display_reason(method, load_scene(scene));
+  } catch (const SceneError&) {
+    return true;
+  }
+}
+
 // The cells of the experiment on one backend.
 std::vector<CellKey> all_keys(const Experiment& experiment) {
   std::vector<CellKey> out;
   for (const std::string& scene : experiment.scenes)
     for (const ExperimentMethod& method : experiment.methods) {
+      if (!draws(*method.method, scene)) continue;
       CellKey key{experiment.name,
                   std::filesystem::path(scene).stem().string(),
                   method.method->info().name,

@@ -79,6 +79,18 @@ TEST_F(ClaimTest, PartnersHaveTheSameFreeParameters) {
   EXPECT_NEAR(judged(ratio(1, 3)).measured, 2, 1e-12);  // 400/200, 800/400; never 400/400
 }
 
+TEST_F(ClaimTest, TwoScenesThatAreNamedArePaired) {
+  add("bone", 100, "1", 2, 2);
+  add("head", 100, "1", 6, 6);
+  add("head", 100, "2", 7, 7);
+  ClaimSpec claim = ratio(2.9, 3.1);
+  claim.of = CellSelector{{"head"}, "", {{"textures", std::string("1")}}, ""};
+  claim.against = CellSelector{{"bone"}, "", {}, ""};
+  EXPECT_EQ(judged(claim).verdict, "holds");
+  claim.against->scenes.clear();  // then the pair is of one scene: itself
+  EXPECT_NE(judged(claim).verdict, "holds");
+}
+
 TEST_F(ClaimTest, PerDividesByTheCellsOwn) {
   add("a", 100, "1", 4, 4).metrics->counters["slices"] = 100;
   add("a", 100, "2", 4, 4).metrics->counters["slices"] = 50;

@@ -102,6 +102,15 @@ TEST(ParseClaims, MistakesAreNamedWithTheirPlace) {
   }
 }
 
+// A method of isosurfaces draws nothing of a scene that shows its volume directly: no cell, nothing to choose.
+TEST(ParseClaims, WhatAMethodDoesNotDrawIsNoCell) {
+  Json json = valid();
+  json["scenes"] = {"slab", "engine_iso"};
+  EXPECT_EQ(parse(json).claims[0].cells, 3U);
+  json["claims"][0]["numerator"]["scene"] = "engine_iso";
+  EXPECT_NE(refusal(json).find("/claims/0/numerator: chooses no cell"), std::string::npos) << refusal(json);
+}
+
 TEST(ParseClaims, ClaimsNeedAPaper) {
   Json json = valid();
   json.erase("paper");
