@@ -227,6 +227,7 @@ std::string Attributor::named_cause(const AttributionPart& part, bool quality_ax
     return quality_axis ? "the error grew: finer work rounds more often, or two errors had cancelled"
                         : "the error grew: two errors had cancelled";
   if (!(part.worth > kWorthNaming) || part.aspect != "volume texture and filter") return "";
+  if (!context_.scene.volume) return "";
   const std::string format = texel_format(part.from, context_.scene.volume->type);
   for (const BackendResultInfo& backend : results_.backends) {
     const auto levels = backend.filter_levels.find(format);

@@ -108,6 +108,7 @@ PixelUpTo reference_pixel(const Scene& scene, const View& view, const Ray& ray, 
 void check(const Scene& scene, const std::vector<ProbeSubject>& subjects, const Device* device,
            const ProbeOptions& options) {
   if (subjects.empty()) throw ProbeError("a probe needs a method");
+  if (!scene.volume) throw ProbeError("the scene shows a shell: a profile follows the data of a volume");
   if (options.depths < 2) throw ProbeError("a profile has at least two depths");
   if (!(options.threshold > 0)) throw ProbeError("the threshold must be positive");
   if (options.x < 0 || options.y < 0 || options.x >= options.width || options.y >= options.height)

@@ -25,6 +25,7 @@
 #include "harness/resume.h"
 #include "harness/run_folder.h"
 #include "harness/scene_context.h"
+#include "harness/scene_data.h"
 #include "scenes/sha256.h"
 
 namespace volumark {
@@ -65,8 +66,8 @@ std::string global_options(const DeviceOptions& device) {
 
 // Each open cell holds a copy of the volume on its Device, which software drivers keep in main memory as well.
 bool fit_together(const SceneContext& context, size_t cells) {
-  if (cells < 2 || !context.scene.volume) return true;
-  const auto texels = static_cast<double>(context.scene.volume->voxels.size());
+  if (cells < 2) return true;
+  const auto texels = static_cast<double>(data_of(context.scene).bytes);
   return 4 * texels * static_cast<double>(cells) < 0.25 * static_cast<double>(machine_info().ram_bytes);
 }
 

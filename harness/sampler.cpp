@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "harness/environment.h"
+#include "harness/scene_data.h"
 #include "harness/statistics.h"
 
 namespace volumark {
@@ -73,7 +74,7 @@ void FrameSampler::begin(const Scene& scene, const Method& method, const Values&
   first_frames(result, images);
   metrics_.peak_bytes.device = static_cast<int64_t>(device.peak_bytes());
   metrics_.peak_bytes.process = peak_resident_bytes();
-  metrics_.peak_bytes.voxels = static_cast<int64_t>(context_.scene.volume->voxels.size());
+  metrics_.peak_bytes.voxels = data_of(context_.scene).bytes;
   metrics_.peak_bytes.target = static_cast<int64_t>(source_->target_bytes());
   next_check_ = std::max(experiment_.least, 3);  // fewer samples a view have no interval worth the name
   spent_ += since(entered_).wall;

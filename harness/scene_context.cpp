@@ -8,6 +8,7 @@
 #include "harness/effect_variants.h"
 #include "harness/image_io.h"
 #include "harness/reference_cost.h"
+#include "harness/scene_data.h"
 #include "scenes/errors.h"
 
 namespace volumark {
@@ -34,6 +35,11 @@ SceneContext make_context(const Experiment& experiment, const std::string& scene
 void make_references(SceneContext& context, const Experiment& experiment, const ReferenceCache& cache,
                      const PictureStore& store, int threads, const std::atomic<bool>* stop, Progress& progress) {
   if (context.missing || context.broken || !experiment.references) return;
+  if (context.scene.display == Display::Shell) {
+    progress.line(fmt::format("no reference of {}: it shows a shell, which the reference does not draw",
+                              context.scene.name));
+    return;
+  }
   context.unreferenced = context.scene.effects.others;
   const Scene scene = without_effects(context.scene, context.unreferenced);
   ReferenceOptions options;
@@ -92,10 +98,9 @@ SceneResultInfo scene_result_info(const Scene& scene) {
   out.title = scene.title;
   out.description = scene.description;
   out.hash = scene.hash;
-  if (scene.volume) {
-    out.voxels = {scene.volume->size.x, scene.volume->size.y, scene.volume->size.z};
-    out.voxel_type = to_string(scene.volume->type);
-  }
+  const SceneData data = data_of(scene);
+  out.voxels = {data.size.x, data.size.y, data.size.z};
+  out.voxel_type = data.type;
   out.licence = scene.source.licence;
   out.origin = scene.source.origin;
   out.effects = effect_names(scene.effects);

@@ -6,6 +6,7 @@
 #include "harness/frame.h"
 #include "harness/image_io.h"
 #include "harness/progress.h"
+#include "harness/scene_data.h"
 #include "methods/reference/reference.h"
 #include "scenes/nearest.h"
 
@@ -83,7 +84,7 @@ int render_with_method(const RenderOptions& options, const Scene& whole, int wid
       "{}: {}x{}, {} on {} ({}): prepare {}, first frame {}, peak {:.1f} MiB on the device ({:.1f} MiB of voxels)\n",
       options.out, width, height, method.info().name, options.backend, device.info().renderer,
       duration_text(source.prepare_cost().cost.wall), duration_text(first.cost.wall),
-      static_cast<double>(device.peak_bytes()) / 1048576, static_cast<double>(scene.volume->voxels.size()) / 1048576);
+      static_cast<double>(device.peak_bytes()) / 1048576, static_cast<double>(data_of(scene).bytes) / 1048576);
   return kOk;
 }
 

@@ -95,6 +95,7 @@ Values CaseRun::stepped(double step, Settings settings) const {
 }
 
 Values CaseRun::scene_values(const Scene& scene) const {
+  if (!scene.volume) return values({});
   const glm::dvec3 extent = scene.volume->extent(), spacing = scene.volume->spacing;
   const double voxels = glm::length(extent) / std::min({spacing.x, spacing.y, spacing.z});
   return stepped(std::max(1.0, voxels / 100));

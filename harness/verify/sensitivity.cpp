@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "harness/scene_context.h"
+#include "harness/scene_data.h"
 #include "harness/statistics.h"
 #include "harness/verify/scene_shelf.h"
 
@@ -152,8 +153,7 @@ void run_sensitivity(CaseRun& run, std::vector<SensitivityRow>& rows, std::vecto
     try {
       const Values values = run.scene_values(scene);
       const auto source = run.prepare(scene, values, kSize, kSize);
-      add_rows(run, scene, values, draw_frames(*source, scene.views.front(), glm::length(scene.volume->extent())),
-               rows);
+      add_rows(run, scene, values, draw_frames(*source, scene.views.front(), data_of(scene).diameter), rows);
     } catch (const NotApplicable& why) {
       run.not_applicable(entry.name, why.what());
       continue;
