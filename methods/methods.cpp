@@ -7,12 +7,14 @@
 #include "methods/raycast/raycast.h"
 #include "methods/slices2d/slices2d.h"
 #include "methods/texture3d_slices/texture3d_slices.h"
+#include "methods/texture3d_slices/texture3d_slices_iso.h"
 
 namespace volumark {
 
 // The one list of methods: add yours here.
 std::span<const Method* const> method_list() {
-  static const std::array<const Method*, 3> list = {&texture3d_slices(), &raycast(), &slices2d()};
+  static const std::array<const Method*, 4> list = {&texture3d_slices(), &texture3d_slices_iso(), &raycast(),
+                                                    &slices2d()};
   return list;
 }
 

@@ -224,4 +224,14 @@ void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& exte
   }
 }
 
+void put_window_directions(VolumeUniforms& uniforms, int width, int height) {
+  // NDC x = 2 X / width - 1, y = 1 - 2 Y / height.
+  for (size_t i = 0; i < 3; ++i) {
+    const float x = uniforms.ray_direction_x[i], y = uniforms.ray_direction_y[i];
+    uniforms.own[0][i] = uniforms.ray_direction[i] - x + y;
+    uniforms.own[1][i] = 2 * x / static_cast<float>(width);
+    uniforms.own[2][i] = -2 * y / static_cast<float>(height);
+  }
+}
+
 }  // namespace volumark

@@ -54,4 +54,8 @@ struct SliceMesh {
 void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& extent, const Slabs& slabs,
                   bool whole_slabs, bool front_to_back, SliceMesh& mesh, const glm::dvec2& margin = glm::dvec2(0));
 
+// Sets own[0..2].xyz to the rays' direction (box coordinates per unit of depth) as a function of window coordinates:
+// own[0] + X own[1] + Y own[2].
+void put_window_directions(VolumeUniforms& uniforms, int width, int height);
+
 }  // namespace volumark

@@ -2,6 +2,7 @@
 
 #include "methods/texture3d_slices/fixed_slices.h"
 #include "methods/texture3d_slices/slice_geometry.h"
+#include "methods/texture3d_slices/slice_parameters.h"
 #include "methods/volume/growing_buffer.h"
 #include "methods/volume/volume_parameters.h"
 #include "methods/volume/volume_resources.h"
@@ -13,37 +14,9 @@ namespace {
 
 namespace parameters {
 using namespace volume_parameters;
-
-const Number& step() {
-  static const Number parameter{{"step",
-                                 "voxels",
-                                 "distance of the slices, in the smallest voxel spacing",
-                                 1,
-                                 1. / 64,
-                                 64,
-                                 {8, 4, 2, 1, .5, .25},
-                                 Ideal<double>{.125, "step"}}};
-  return parameter;
-}
-const Choice& order() {
-  static const Choice parameter{"order",
-                                "back_to_front blends each slice over, front_to_back under what is there",
-                                {"back_to_front", "front_to_back"},
-                                "back_to_front"};
-  return parameter;
-}
-const Choice& end_slabs() {
-  static const Choice parameter{
-      "end_slabs",
-      "clipped: each sample stands for the part of its slab inside the volume; full: for the whole slab (plain slices)",
-      {"clipped", "full"},
-      "clipped",
-      Ideal<const char*>{"clipped", "end slabs"}};
-  return parameter;
-}
+using namespace slice_parameters;
 }  // namespace parameters
 
-bool clips_slabs(const Values& values) { return parameters::end_slabs()(values) == "clipped"; }
 bool linear_opacity(const Values& values) { return parameters::kOpacityCorrection(values) == "linear"; }
 
 double expected_order(const Values& values) {
@@ -54,10 +27,6 @@ double expected_order(const Values& values) {
     return 0;
   }
   return clips_slabs(values) && !linear_opacity(values) ? 2 : 1;
-}
-
-double step_in_world(const Scene& scene, const Values& values) {
-  return parameters::step()(values) * smallest_spacing(*scene.volume);
 }
 
 VolumeSettings settings_of(const Scene& scene, const Values& values) {
@@ -76,7 +45,7 @@ class PreparedSlices final : public PreparedMethod {
       : scene_(scene),
         device_(device),
         clips_(clips_slabs(values)),
-        front_to_back_(parameters::order().index(values) == 1),
+        front_to_back_(parameters::kOrder.index(values) == 1),
         step_(step_in_world(scene, values)),
         resources_(scene, settings_of(scene, values), device),
         uniforms_(device, "slice uniforms"),
@@ -129,13 +98,7 @@ VolumeUniforms PreparedSlices::uniforms_of(const View& view, const Body& body, i
   uniforms.depth[1] = static_cast<float>(body.z_first);
   uniforms.depth[2] = static_cast<float>(body.z_last);
   uniforms.depth[3] = static_cast<float>(step_);
-  // The ray's direction as a function of window coordinates: NDC x = 2 X / width - 1, y = 1 - 2 Y / height.
-  for (size_t i = 0; i < 3; ++i) {
-    const float x = uniforms.ray_direction_x[i], y = uniforms.ray_direction_y[i];
-    uniforms.own[0][i] = uniforms.ray_direction[i] - x + y;
-    uniforms.own[1][i] = 2 * x / static_cast<float>(width);
-    uniforms.own[2][i] = -2 * y / static_cast<float>(height);
-  }
+  put_window_directions(uniforms, width, height);
   return uniforms;
 }
 
@@ -183,7 +146,7 @@ class Texture3dSlices final : public Method {
         "texture3d_slices",
         "Slices of a 3D texture perpendicular to the view, blended in order",
         "cabral1994; westermann1998",
-        {parameters::step().info(), parameters::order().info(), parameters::end_slabs().info(),
+        {parameters::kStep.info(), parameters::kOrder.info(), parameters::kEndSlabs.info(),
          parameters::kClassification.info(), parameters::kOpacityCorrection.info(), parameters::kTargetFormat.info(),
          parameters::kVolumeFormat.info(), parameters::kTableSize.info(), parameters::kPreintegratedSize.info()},
         {"lighting", "clip_planes", "fixed_point"},
@@ -198,7 +161,7 @@ class Texture3dSlices final : public Method {
   std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const override {
     if (scene.effects.fixed_point) {
       const FixedSettings settings{classification_of(values), linear_opacity(values), step_in_world(scene, values)};
-      return prepare_fixed_slices(scene, settings, parameters::order().index(values) == 1, device);
+      return prepare_fixed_slices(scene, settings, parameters::kOrder.index(values) == 1, device);
     }
     return std::make_unique<PreparedSlices>(scene, values, device);
   }

@@ -11,20 +11,13 @@
 
 #include "methods/volume/volume_twin-inl.h"
 
+// After the sampler it is made of.
+#include "methods/volume/volume_fetch-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace volumark {
 namespace HWY_NAMESPACE {
 namespace {
-
-struct alignas(64) Positions {
-  float x[kMaxBatch + kBatchPadding], y[kMaxBatch + kBatchPadding], z[kMaxBatch + kBatchPadding];
-  HWY_INLINE void put(size_t i, const Floats3& p) {
-    store(p.x, x + i);
-    store(p.y, y + i);
-    store(p.z, z + i);
-  }
-  HWY_INLINE Floats3 get(size_t i) const { return {load(x + i), load(y + i), load(z + i)}; }
-};
 
 // What main() of the fragment program computes of the geometry.
 struct alignas(64) Segments {
@@ -87,37 +80,7 @@ HWY_NOINLINE void locate(const VolumeUniforms& vm, const FragmentBatch& batch, S
   });
 }
 
-// ---- Phase 2: fetch ----
-template <Format format>
-HWY_NOINLINE void fetch_as(const VolumeBindings& b, const Positions& at, size_t count, float* values) {
-  const VolumeView view = volume_view(b.volume);
-  const Floats3 scale = splat3(b.vm.texture_scale), offset = splat3(b.vm.texture_offset);
-  VolumeCells cells;
-  for_lanes(count, [&](size_t i) HWY_ATTR {
-    const Floats3 p = at.get(i) * scale + offset;  // texture_position
-    cells.put(i, volume_cell(view, p.x, p.y, p.z));
-    cells.prefetch<format>(view, i);
-  });
-  const Floats lo = splat(b.vm.value[0]), range = splat(b.vm.value[1]);
-  for_lanes(count, [&](size_t i) HWY_ATTR {
-    store(hn::Mul(hn::Sub(cells.fetch<format>(view, i), lo), range), values + i);  // normalised_value
-  });
-}
-
-HWY_NOINLINE void fetch(const VolumeBindings& b, const Positions& at, size_t count, float* values) {
-  if (fits_volume_view(b.volume)) {
-    switch (b.volume.format) {
-      case Format::R8:
-        return fetch_as<Format::R8>(b, at, count, values);
-      case Format::R16:
-        return fetch_as<Format::R16>(b, at, count, values);
-      default:
-        return fetch_as<Format::R32F>(b, at, count, values);
-    }
-  }
-  for_lanes(count, [&](size_t i) HWY_ATTR { store(sample_value(b, at.get(i)), values + i); });
-}
-
+// ---- Phase 2: fetch, of volume_fetch-inl.h ----
 // ---- Phase 3: transfer function ----
 template <bool linear_opacity, bool lit>
 HWY_NOINLINE void shade_post(const VolumeBindings& b, const Segments& s, const float* values, FragmentBatch& batch) {
