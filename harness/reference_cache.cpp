@@ -20,7 +20,7 @@ struct Header {
   int32_t width, height;
   double max_bound;
   int64_t cells, pieces;
-  uint32_t estimate, reserved;
+  uint32_t estimate, undecided;
 };
 constexpr char kMagic[8] = {'V', 'M', 'R', 'E', 'F', '\r', '\n', '\0'};
 constexpr uint32_t kFormat = 1;  // of the file
@@ -70,6 +70,7 @@ std::optional<Reference> ReferenceCache::load(const std::string& key) const {
   std::memcpy(out.bound.data(), payload.data() + pixels, out.bound.size() * sizeof(float));
   out.max_bound = header.max_bound;
   out.estimate = header.estimate != 0;
+  out.undecided = header.undecided;
   out.cells = header.cells;
   out.pieces = header.pieces;
   return out;
@@ -87,6 +88,7 @@ void ReferenceCache::store(const std::string& key, const Reference& reference) c
   header.cells = reference.cells;
   header.pieces = reference.pieces;
   header.estimate = reference.estimate ? 1 : 0;
+  header.undecided = static_cast<uint32_t>(reference.undecided);
   const std::string head(reinterpret_cast<const char*>(&header), sizeof header);
   std::string payload(reinterpret_cast<const char*>(reference.image.rgba.data()),
                       reference.image.rgba.size() * sizeof(float));

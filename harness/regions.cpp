@@ -13,7 +13,9 @@
 #include <optional>
 
 #include "harness/metrics/metrics.h"
+#include "methods/reference/isosurface.h"
 #include "methods/reference/lattice.h"
+#include "methods/reference/transfer_pieces.h"
 
 namespace volumark {
 namespace {
@@ -36,16 +38,21 @@ class Slopes {
  public:
   explicit Slopes(const Scene& scene)
       : scene_(scene), volume_(*scene.volume), lattice_(volume_), step_(0.5 * smallest(volume_.spacing)) {
-    lattice_.mark_empty_bricks(TransferPieces(scene.transfer));
+    if (scene.display == Display::Isosurface) surface_.emplace(scene, true);
+    if (scene.display == Display::Direct)
+      lattice_.mark_empty_bricks(
+          [pieces = TransferPieces(scene.transfer)](double lo, double hi) { return pieces.empty_range(lo, hi); });
     // Below it a gradient is rounding alone.
     least_slope_ = 1e-9 * (scene.transfer.hi - scene.transfer.lo) / smallest(volume_.spacing);
   }
 
-  // |n . v| where the ray contributes most; 1 where nothing contributes or the gradient vanishes.
+  // |n . v| where the ray contributes most; 1 in a slice plane, and where nothing contributes or the gradient vanishes.
   double cosine(const Ray& ray) const {
     const glm::dvec3 origin = lattice_.index_of_point(ray.origin);
     const glm::dvec3 direction = lattice_.index_of_vector(ray.direction);
-    const std::optional<double> t = largest_contribution(ray, origin, direction);
+    std::optional<double> t;
+    if (surface_) t = surface_->trace(ray).distance;
+    if (scene_.display == Display::Direct) t = largest_contribution(ray, origin, direction);
     if (!t) return 1;
     const glm::dvec3 gradient = volume_.axes * gradient_at(origin + *t * direction);
     const double length = glm::length(gradient);
@@ -115,8 +122,14 @@ class Slopes {
   const Scene& scene_;
   const Volume& volume_;
   Lattice lattice_;
+  std::optional<SurfaceTracer> surface_;  // of scenes that show one
   double step_, least_slope_ = 0;
 };
+
+// A pixel of which rounding decides whether it shows anything is taken as the reference shows it.
+double bound_of(const Reference& reference, size_t pixel) {
+  return std::min(static_cast<double>(reference.bound[pixel]), kSilhouetteSpan);
+}
 
 // Least and largest alpha of the 3 x 3 neighbourhood, and whether it is 0 within the bound.
 struct Neighbourhood {
@@ -132,7 +145,7 @@ Neighbourhood neighbourhood(const Reference& reference, int x, int y) {
       const size_t i = static_cast<size_t>(v) * static_cast<size_t>(image.width) + static_cast<size_t>(u);
       out.lo = std::min(out.lo, alpha);
       out.hi = std::max(out.hi, alpha);
-      out.empty &= alpha <= static_cast<double>(reference.bound[i]);
+      out.empty &= alpha <= bound_of(reference, i);
     }
   }
   return out;
@@ -151,7 +164,7 @@ bool equals_background(const Reference& reference, const glm::dvec3& background)
     const float* p = reference.image.rgba.data() + 4 * i;
     for (int c = 0; c < 3; ++c) {
       const double change = static_cast<double>(p[c]) - static_cast<double>(p[3]) * background[c];
-      if (!(std::abs(change) <= static_cast<double>(reference.bound[i]) * (1 + background[c]))) return false;
+      if (!(std::abs(change) <= bound_of(reference, i) * (1 + background[c]))) return false;
     }
   }
   return true;

@@ -16,7 +16,8 @@ namespace volumark {
 // Background: the reference's alpha is 0, within its bound, in the 3 x 3 neighbourhood.
 // Silhouette: the reference's alpha spans more than 0.1 there (as in parity()).
 // Grazing: |n . v| < 0.2, n the normalised gradient of the data (central differences, interpolated) where the ray's
-// contribution T (1 - exp(-tau h)) is largest, v the ray's direction; a march in half of the smallest voxel spacing.
+// contribution T (1 - exp(-tau h)) is largest, v the ray's direction; a march in half of the smallest voxel spacing. Of
+// an isosurface: at the point that the ray shows. A slice plane has none.
 // Interior: the rest, also where the gradient vanishes.
 enum class Region : uint8_t { Background, Silhouette, Grazing, Interior };
 inline constexpr Region kRegions[] = {Region::Silhouette, Region::Grazing, Region::Interior, Region::Background};

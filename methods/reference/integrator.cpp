@@ -5,103 +5,29 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "methods/reference/field_chord.h"
+#include "methods/reference/ray_span.h"
+
 namespace volumark {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// The trilinear field with these corners along start + u * change (cell coordinates), a cubic in u.
-Cubic along_chord(const Lattice::Corners& corner, const glm::dvec3& start, const glm::dvec3& change) {
-  double x0[4], x1[4];  // after interpolation along x: x0 + x1 u, for each (y, z)
-  for (size_t k = 0; k < 4; ++k) {
-    const double difference = corner[2 * k + 1] - corner[2 * k];
-    x0[k] = corner[2 * k] + difference * start.x;
-    x1[k] = difference * change.x;
-  }
-  double y0[2], y1[2], y2[2];
-  for (size_t k = 0; k < 2; ++k) {
-    const double d0 = x0[2 * k + 1] - x0[2 * k], d1 = x1[2 * k + 1] - x1[2 * k];
-    y0[k] = x0[2 * k] + d0 * start.y;
-    y1[k] = x1[2 * k] + d1 * start.y + d0 * change.y;
-    y2[k] = d1 * change.y;
-  }
-  const double d0 = y0[1] - y0[0], d1 = y1[1] - y1[0], d2 = y2[1] - y2[0];
-  return {y0[0] + d0 * start.z, y1[0] + d1 * start.z + d0 * change.z, y2[0] + d2 * start.z + d1 * change.z,
-          d2 * change.z};
-}
-
 }  // namespace
 
 Integrator::Integrator(const Scene& scene, bool find_empty_bricks)
     : scene_(scene), transfer_(scene.transfer), lattice_(*scene.volume) {
-  if (find_empty_bricks) lattice_.mark_empty_bricks(transfer_);
+  if (find_empty_bricks)
+    lattice_.mark_empty_bricks([this](double lo, double hi) { return transfer_.empty_range(lo, hi); });
   if (scene.effects.lighting) lighting_ = lighting_bound(*scene.effects.lighting);
   max_radiance_ = std::max(1.0, lighting_.gain * transfer_.max_colour() + lighting_.offset);
 }
 
-// Index units, over all axes: what rounding can shift a point of the ray by.
-double Integrator::position_error(const Ray& ray) const {
-  const Volume& volume = lattice_.volume();
-  double size = 0;
-  for (int a = 0; a < 3; ++a) {
-    size += (std::abs(ray.origin[a]) + std::abs(volume.origin[a])) /
-            std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});
-    size += lattice_.cells()[a];
-  }
-  return 8 * kEpsilon * size;
-}
-
-namespace {
-
-// An end of a span: the last of several entries (or, negated, the first of several exits), with the range that rounding
-// leaves it.
-struct End {
-  double at, least, most;
-  void raise(double t, double error) {
-    at = std::max(at, t);
-    least = std::max(least, t - error);
-    most = std::max(most, t + error);
-  }
-  double error() const { return std::max(at - least, most - at); }
-};
-
-}  // namespace
-
-std::optional<Integrator::Span> Integrator::clip(const Ray& ray, const GridRay& grid, double error) const {
-  const double infinity = std::numeric_limits<double>::infinity(), lowest = std::numeric_limits<double>::lowest();
-  End entry{lowest, lowest, lowest}, exit = entry;  // exit: of -t
-  entry.raise(ray.t_near, 4 * kEpsilon * std::abs(ray.t_near));
-  // Keeps t where from + t * rate >= 0, with this absolute error along the whole ray.
-  auto keep = [&](double from, double rate, double from_error) {
-    if (rate != 0) {
-      const double t = -from / rate, t_error = from_error / std::abs(rate) + 4 * kEpsilon * std::abs(t);
-      rate > 0 ? entry.raise(t, t_error) : exit.raise(-t, t_error);
-    } else if (std::abs(from) <= from_error) {  // in or out: rounding decides
-      from < 0 ? exit.raise(infinity, infinity) : exit.raise(lowest, infinity);
-    } else if (from < 0) {
-      exit.raise(infinity, 0);
-    }
-  };
-  for (int a = 0; a < 3; ++a) {
-    keep(grid.origin[a], grid.direction[a], error);
-    keep(lattice_.cells()[a] - grid.origin[a], -grid.direction[a], error);
-  }
-  for (const ClipPlane& plane : scene_.effects.clip_planes) {
-    const double at = glm::dot(plane.normal, ray.origin);
-    const double plane_error = 8 * kEpsilon * (2 * glm::length(ray.origin) + std::abs(plane.distance));
-    keep(at - plane.distance, glm::dot(plane.normal, ray.direction), plane_error);
-  }
-  if (entry.least >= -exit.least) return std::nullopt;
-  const double longest = glm::length(lattice_.volume().extent());
-  auto within = [&](double e) { return e < longest ? e : longest; };  // also where e is not a number
-  return Span{entry.at, -exit.at, within(entry.error()), within(exit.error())};
-}
-
 RayResult Integrator::integrate(const Ray& ray, double tolerance) const {
   GridRay grid{lattice_.index_of_point(ray.origin), lattice_.index_of_vector(ray.direction)};
-  const double error = position_error(ray);
+  const double error = position_error(lattice_, ray);
   RayResult result;
-  const auto span = clip(ray, grid, error);
+  const auto span = clip_ray(scene_, lattice_, ray, grid, error);
   if (!span) return result;
 
   // Distances count from the entry, so that they do not lose digits to a distant eye.

@@ -2,22 +2,14 @@
 // bends. Const and safe to share between threads.
 #pragma once
 
-#include <optional>
-
 #include "methods/reference/accumulator.h"
 #include "methods/reference/grid_walk.h"
 #include "methods/reference/lattice.h"
+#include "methods/reference/ray_result.h"
 #include "methods/reference/transfer_pieces.h"
 #include "scenes/scene.h"
 
 namespace volumark {
-
-struct RayResult {
-  glm::dvec3 rgb{0};  // premultiplied
-  double alpha = 0;
-  double bound = 0;
-  int64_t cells = 0, pieces = 0;
-};
 
 class Integrator {
  public:
@@ -27,13 +19,6 @@ class Integrator {
   bool lit() const { return scene_.effects.lighting.has_value(); }
 
  private:
-  // What the box, the near plane and the clip planes leave of a ray.
-  struct Span {
-    double t0, t1;          // empty where t0 >= t1
-    double error0, error1;  // how far rounding may have moved either end
-  };
-  std::optional<Span> clip(const Ray& ray, const GridRay& grid, double position_error) const;
-  double position_error(const Ray& ray) const;
   void add_cell(const glm::ivec3& cell, const GridRay& grid, double position_error, double t0, double t1, double t_base,
                 Accumulator& sum) const;
   void add_monotone(const Chord& chord, double u0, double u1, Accumulator& sum) const;

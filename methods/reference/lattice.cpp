@@ -129,7 +129,7 @@ void Lattice::brick_range(const glm::ivec3& brick, double& lo, double& hi) const
   hi = std::max(a, b);
 }
 
-void Lattice::mark_empty_bricks(const TransferPieces& transfer) {
+void Lattice::mark_empty_bricks(const std::function<bool(double lo, double hi)>& shows_nothing) {
   empty_.assign(static_cast<size_t>(bricks_.x) * static_cast<size_t>(bricks_.y) * static_cast<size_t>(bricks_.z), 0);
   const int rows = bricks_.y * bricks_.z;
   tbb::parallel_for(tbb::blocked_range<int>(0, rows), [&](const tbb::blocked_range<int>& range) {
@@ -138,7 +138,7 @@ void Lattice::mark_empty_bricks(const TransferPieces& transfer) {
         double lo = 0, hi = 0;
         const glm::ivec3 brick(x, row % bricks_.y, row / bricks_.y);
         (this->*range_)(brick, lo, hi);
-        empty_[brick_index(brick)] = transfer.empty_range(lo, hi);
+        empty_[brick_index(brick)] = shows_nothing(lo, hi) ? 1 : 0;
       }
     }
   });

@@ -5,10 +5,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "methods/reference/transfer_pieces.h"
 #include "scenes/volume.h"
 
 namespace volumark {
@@ -33,8 +33,8 @@ class Lattice {
   using CornerGradients = std::array<Corners, 3>;
   void load_gradients(const glm::ivec3& cell, CornerGradients& out) const;
 
-  // Finds the bricks without extinction; without it, none is known to be empty.
-  void mark_empty_bricks(const TransferPieces& transfer);
+  // Finds the bricks whose values, all within [lo, hi], show nothing; without it, none is known to be empty.
+  void mark_empty_bricks(const std::function<bool(double lo, double hi)>& shows_nothing);
   bool brick_empty(const glm::ivec3& brick) const { return !empty_.empty() && empty_[brick_index(brick)] != 0; }
   glm::ivec3 bricks() const { return bricks_; }
 

@@ -47,23 +47,59 @@ RayLights::RayLights(const Lighting& lighting, const Volume& volume, const Ray& 
   }
 }
 
+glm::dvec3 RayLights::unit_normal(const glm::dvec3& gradient) const {
+  return gradient / -std::max(glm::length(gradient), floor_);
+}
+
+RayLights::Contribution RayLights::contribution(const LightOnRay& light, const glm::dvec3& normal, double t) const {
+  Contribution out;
+  const glm::dvec3 to_light = light.point ? unit_or_zero(light.vector - t * direction_) : light.vector;
+  out.n_l = glm::dot(normal, to_light);
+  if (lighting_.two_sided) out.n_l = std::abs(out.n_l);
+  if (out.n_l > 0) out.diffuse = lighting_.diffuse * out.n_l;
+  if (lighting_.specular == 0) return out;
+  out.n_h = glm::dot(normal, light.point ? unit_or_zero(to_light - direction_) : light.half);
+  if (lighting_.two_sided) out.n_h = std::abs(out.n_h);
+  if (out.n_h <= 0 || !(out.n_l > 0 || lighting_.two_sided)) return out;
+  const double power =
+      whole_shininess_ >= 0 ? whole_power(out.n_h, whole_shininess_) : std::pow(out.n_h, lighting_.shininess);
+  out.specular = lighting_.specular * power;
+  return out;
+}
+
 glm::dvec3 RayLights::shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour) const {
   glm::dvec3 diffuse(lighting_.ambient), specular(0);
-  const glm::dvec3 normal = gradient / -std::max(glm::length(gradient), floor_);
+  const glm::dvec3 normal = unit_normal(gradient);
   for (const LightOnRay& light : lights_) {
-    const glm::dvec3 to_light = light.point ? unit_or_zero(light.vector - t * direction_) : light.vector;
-    double n_l = glm::dot(normal, to_light);
-    if (lighting_.two_sided) n_l = std::abs(n_l);
-    if (n_l > 0) diffuse += light.colour * (lighting_.diffuse * n_l);
-    if (lighting_.specular == 0 || !(n_l > 0 || lighting_.two_sided)) continue;
-    double n_h = glm::dot(normal, light.point ? unit_or_zero(to_light - direction_) : light.half);
-    if (lighting_.two_sided) n_h = std::abs(n_h);
-    if (n_h <= 0) continue;
-    const double power =
-        whole_shininess_ >= 0 ? whole_power(n_h, whole_shininess_) : std::pow(n_h, lighting_.shininess);
-    specular += light.colour * (lighting_.specular * power);
+    const Contribution from = contribution(light, normal, t);
+    diffuse += light.colour * from.diffuse;
+    specular += light.colour * from.specular;
   }
   return colour * diffuse + specular;
+}
+
+glm::dvec3 RayLights::shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour,
+                            const glm::dvec3& ambient_colour) const {
+  return shade(gradient, t, colour) + (ambient_colour - colour) * lighting_.ambient;
+}
+
+double RayLights::shading_error(const glm::dvec3& gradient, double t, double error) const {
+  // Normalising a vector moved by `error` moves it by 2 error / length at most, and below the floor by error / floor.
+  const double turn = std::min(2 * error / std::max(glm::length(gradient), floor_), 2.0);
+  const glm::dvec3 normal = unit_normal(gradient);
+  double sum = 0;
+  for (const LightOnRay& light : lights_) {
+    const double brightest = std::max({light.colour.x, light.colour.y, light.colour.z});
+    sum += brightest * lighting_.diffuse * turn;
+    if (lighting_.specular == 0) continue;
+    const Contribution from = contribution(light, normal, t);
+    const double n_h = std::clamp(from.n_h + turn, 0.0, 1.0), before = std::pow(n_h, lighting_.shininess);
+    const double slope =
+        lighting_.shininess >= 1 ? lighting_.shininess * std::pow(n_h, lighting_.shininess - 1) * turn : before;
+    const bool either_side = !lighting_.two_sided && std::abs(from.n_l) <= turn;
+    sum += brightest * lighting_.specular * std::min(either_side ? before : slope, 1.0);
+  }
+  return sum;
 }
 
 void RayLights::append_splits(const GradientChord& gradient, double t0, double length,

@@ -19,6 +19,12 @@ class RayLights {
 
   // Lit colour at distance t along the ray, where the gradient and the unlit colour are these.
   glm::dvec3 shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour) const;
+  // The same with a reflectance of its own for ambient light.
+  glm::dvec3 shade(const glm::dvec3& gradient, double t, const glm::dvec3& colour,
+                   const glm::dvec3& ambient_colour) const;
+  // How far a change of the gradient by `error` can change any channel of a lit colour with channels up to 1: to first
+  // order in it, and where it decides on which side a light stands, all of that light's highlight.
+  double shading_error(const glm::dvec3& gradient, double t, double error) const;
 
   // Appends the u in (0, 1) of the chord [t0, t0 + length] where some light changes sides, or the gradient's
   // length passes the floor.
@@ -31,6 +37,13 @@ class RayLights {
     glm::dvec3 half;    // directional lights
     glm::dvec3 colour;
   };
+  // What one light adds to the factor of the colour (`diffuse`) and beside it (`specular`).
+  struct Contribution {
+    double diffuse = 0, specular = 0;
+    double n_l = 0, n_h = 0;
+  };
+  Contribution contribution(const LightOnRay& light, const glm::dvec3& normal, double t) const;
+  glm::dvec3 unit_normal(const glm::dvec3& gradient) const;  // shorter below the floor
   void append_highlight_edges(const GradientChord& gradient, const LightOnRay& light, double t0, double length,
                               std::vector<double>& splits) const;
 

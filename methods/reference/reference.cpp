@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 
 #include "methods/reference/integrator.h"
+#include "methods/reference/isosurface.h"
+#include "methods/reference/slice_plane.h"
 
 namespace volumark {
 namespace {
@@ -17,7 +21,8 @@ namespace {
 constexpr int kTile = 16;  // pixels along each edge
 
 const Scene& checked(const Scene& scene) {
-  if (!scene.volume) throw std::invalid_argument("reference: the scene's volume is not loaded");
+  if (scene.display != Display::Shell && !scene.volume)
+    throw std::invalid_argument("reference: the scene's volume is not loaded");
   if (scene.transfer.points.empty()) throw std::invalid_argument("reference: the transfer function has no point");
   return scene;
 }
@@ -34,19 +39,46 @@ float round_up(double value) {
                                               : rounded;
 }
 
-void render_tile(const Integrator& integrator, const View& view, int tile_x, int tile_y, double tolerance,
-                 Reference& out, int64_t& cells, int64_t& pieces) {
+using Draw = std::function<RayResult(const Ray&)>;
+
+// What draws the rays of `scene`; it holds what it needs. `estimate`: its bound is not a proof.
+Draw drawing(const Scene& scene, bool many_rays, double tolerance, bool& estimate) {
+  switch (scene.display) {
+    case Display::Isosurface: {
+      auto tracer = std::make_shared<const SurfaceTracer>(scene, many_rays);
+      estimate = tracer->lit();
+      return [tracer](const Ray& ray) { return tracer->trace(ray); };
+    }
+    case Display::SlicePlane: {
+      auto tracer = std::make_shared<const PlaneTracer>(scene);
+      return [tracer](const Ray& ray) { return tracer->trace(ray); };
+    }
+    case Display::Shell:
+      throw std::invalid_argument("reference: scenes that show a shell have no reference");
+    case Display::Direct:
+      break;
+  }
+  auto integrator = std::make_shared<const Integrator>(scene, many_rays);
+  estimate = integrator->lit();
+  return [integrator, tolerance](const Ray& ray) { return integrator->integrate(ray, tolerance); };
+}
+
+struct TileWork {
+  int64_t cells = 0, pieces = 0;
+};
+
+void render_tile(const Draw& draw, const View& view, int tile_x, int tile_y, Reference& out, TileWork& work) {
   Image& image = out.image;
   for (int y = tile_y; y < std::min(tile_y + kTile, image.height); ++y) {
     for (int x = tile_x; x < std::min(tile_x + kTile, image.width); ++x) {
-      const RayResult ray = integrator.integrate(pixel_ray(view, image.width, image.height, x, y), tolerance);
+      const RayResult ray = draw(pixel_ray(view, image.width, image.height, x, y));
       float* pixel = image.pixel(x, y);
       const double rounding = std::max({store(ray.rgb.x, pixel[0]), store(ray.rgb.y, pixel[1]),
                                         store(ray.rgb.z, pixel[2]), store(ray.alpha, pixel[3])});
       out.bound[static_cast<size_t>(y) * static_cast<size_t>(image.width) + static_cast<size_t>(x)] =
           round_up(ray.bound + rounding);
-      cells += ray.cells;
-      pieces += ray.pieces;
+      work.cells += ray.cells;
+      work.pieces += ray.pieces;
     }
   }
 }
@@ -60,30 +92,34 @@ Reference render_reference(const Scene& scene, const View& view, int width, int 
   const int available = tbb::info::default_concurrency();
   tbb::task_arena arena(options.threads > 0 ? std::min(options.threads, available) : available);
   return arena.execute([&] {
-    const Integrator integrator(checked(scene), true);
     Reference out;
+    const Draw draw = drawing(checked(scene), true, options.tolerance, out.estimate);
     out.image = Image(width, height);
     out.bound.resize(static_cast<size_t>(width) * static_cast<size_t>(height));
-    out.estimate = integrator.lit();
     const int columns = (width + kTile - 1) / kTile, rows = (height + kTile - 1) / kTile;
-    std::vector<int64_t> cells(static_cast<size_t>(columns * rows)), pieces(cells.size());
-    tbb::parallel_for(size_t{0}, cells.size(), [&](size_t i) {
+    std::vector<TileWork> work(static_cast<size_t>(columns * rows));
+    tbb::parallel_for(size_t{0}, work.size(), [&](size_t i) {
       const int tile = static_cast<int>(i);
-      render_tile(integrator, view, tile % columns * kTile, tile / columns * kTile, options.tolerance, out, cells[i],
-                  pieces[i]);
+      render_tile(draw, view, tile % columns * kTile, tile / columns * kTile, out, work[i]);
     });
-    for (size_t i = 0; i < cells.size(); ++i) {
-      out.cells += cells[i];
-      out.pieces += pieces[i];
+    for (const TileWork& tile : work) {
+      out.cells += tile.cells;
+      out.pieces += tile.pieces;
     }
-    out.max_bound = static_cast<double>(*std::max_element(out.bound.begin(), out.bound.end()));
+    for (const float bound : out.bound) {
+      if (bound >= 1 && scene.display != Display::Direct)
+        ++out.undecided;
+      else
+        out.max_bound = std::max(out.max_bound, static_cast<double>(bound));
+    }
     return out;
   });
 }
 
 RayIntegral integrate_ray(const Scene& scene, const View&, const Ray& ray, double tolerance) {
-  const RayResult result = Integrator(checked(scene), false).integrate(ray, tolerance);
-  return {{result.rgb.x, result.rgb.y, result.rgb.z, result.alpha}, result.bound};
+  bool estimate = false;
+  const RayResult result = drawing(checked(scene), false, tolerance, estimate)(ray);
+  return {{result.rgb.x, result.rgb.y, result.rgb.z, result.alpha}, result.bound, result.distance};
 }
 
 }  // namespace volumark

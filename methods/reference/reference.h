@@ -1,10 +1,11 @@
 // The high-precision image of a scene and view: every pixel's ray integrated in double precision, with an error bound
-// for each pixel. Cells are cut at turning points of the field and control points of the transfer function; on each
-// piece the optical depth is a quartic, and one moment of exp(-D), by Gauss-Legendre with a proved error, serves all
-// channels.
+// for each pixel. What scenes show (Display) is drawn as scenes/scene.h defines it. Direct: cells are cut at turning
+// points of the field and control points of the transfer function; on each piece the optical depth is a quartic, and
+// one moment of exp(-D), by Gauss-Legendre with a proved error, serves all channels.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct ReferenceOptions {
 struct Reference {
   Image image;               // premultiplied, over transparent black
   std::vector<float> bound;  // per pixel: largest error of any channel (rounding to float included)
-  double max_bound = 0;
-  bool estimate = false;  // normalised lighting: the bound is an error estimate (Gauss-Kronrod), not a proof
+  double max_bound = 0;      // of all pixels but the undecided ones
+  int64_t undecided = 0;  // pixels of bound 1 or more: within rounding, the ray hits or misses an isosurface or plane
+  bool estimate = false;  // lighting: the bound is an error estimate, not a proof
   int64_t cells = 0, pieces = 0;
 };
 
@@ -36,6 +38,7 @@ Reference render_reference(const Scene& scene, const View& view, int width, int 
 struct RayIntegral {
   double rgba[4];
   double bound;
+  std::optional<double> distance = {};  // of the one point that it shows, along the ray: isosurfaces and slice planes
 };
 RayIntegral integrate_ray(const Scene& scene, const View& view, const Ray& ray, double tolerance = 1e-9);
 

@@ -21,6 +21,7 @@ Reference sample() {
   reference.bound = {1e-7F, 2e-7F, 3e-7F, 4e-7F, 5e-7F, 6e-7F};
   reference.max_bound = 6e-7;
   reference.estimate = true;
+  reference.undecided = 5;
   reference.cells = 11;
   reference.pieces = 22;
   return reference;
@@ -38,6 +39,7 @@ TEST(ReferenceCache, RoundTrip) {
   EXPECT_EQ(back->bound, sample().bound);
   EXPECT_EQ(back->max_bound, 6e-7);
   EXPECT_TRUE(back->estimate);
+  EXPECT_EQ(back->undecided, 5);
   EXPECT_EQ(back->cells, 11);
   EXPECT_EQ(back->pieces, 22);
 }

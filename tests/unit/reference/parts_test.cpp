@@ -151,7 +151,8 @@ TEST(Lattice, ReadsEveryVoxelTypeAndMarksOnlyEmptyBricks) {
 
     TransferFunction transfer;
     transfer.points = {{0.97, {}, 0}, {1, {}, 1}};
-    lattice.mark_empty_bricks(TransferPieces(transfer));
+    const TransferPieces pieces(transfer);
+    lattice.mark_empty_bricks([&](double lo, double hi) { return pieces.empty_range(lo, hi); });
     int empty = 0;
     for (int bz = 0; bz < lattice.bricks().z; ++bz) {
       for (int bx = 0; bx < lattice.bricks().x; ++bx) {
