@@ -1,0 +1,62 @@
+// The prisms of a shell as its methods draw them (lensch2002, section 3). World coordinates are taken relative to the
+// shell's middle in double precision and only then rounded to float; a corner that prisms share is one corner here, the
+// same bits for all of them. Only prisms whose map keeps the sign of its Jacobian are in the list.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "scenes/shell.h"
+
+namespace volumark {
+
+// The sign of the Jacobian of X(b, w) = sum_i b_i (lower_i + w (upper_i - lower_i)), if it keeps it over the prism: +1
+// or -1; 0 where it changes its sign or cannot be told from 0 by double arithmetic.
+//
+// The Jacobian is sum_i b_i N(w) . d_i with d_i = upper_i - lower_i and N the normal (not unit) of the triangle at
+// height w. It keeps its sign if the three quadratics N(w) . d_i keep theirs over [0, 1], and all the same. Corners
+// without thickness (d_i = 0) add nothing; there the Jacobian is 0 at the corner itself, which is allowed, unless no
+// corner has any thickness.
+int jacobian_sign(const std::array<glm::dvec3, 3>& lower, const std::array<glm::dvec3, 3>& upper);
+
+struct Prism {
+  std::array<uint32_t, 3> position;  // of its corners, in the lists below
+  uint32_t triangle;                 // of the mesh
+  std::array<glm::vec3, 6> texture;  // texture coordinates of its six corners
+  glm::dvec3 middle;                 // bounding sphere of the six corners
+  double radius;
+};
+
+struct ShellPrisms {
+  glm::dvec3 middle{0};                 // world; the origin of what follows
+  std::vector<glm::vec3> lower, upper;  // by position of the mesh, relative to `middle`
+  std::vector<Prism> prisms;
+  // Left out: without volume, or not to be told from it (degenerate); self-intersecting (the Jacobian changes its
+  // sign).
+  int64_t degenerate = 0, self_intersecting = 0;
+
+  const glm::vec3& corner(const Prism& prism, int index) const {
+    const uint32_t position = prism.position[static_cast<size_t>(index % 3)];
+    return index < 3 ? lower[position] : upper[position];
+  }
+};
+ShellPrisms shell_prisms(const Shell& shell);
+
+// An edge of a prism with all that a vertex program needs to meet it with a plane: a fake vertex of lensch2002, section
+// 5. Ends in the order of the positions (lower before upper on a normal edge), whoever asks.
+struct FakeVertex {
+  glm::vec3 a, b;                  // relative to the shell's middle
+  glm::vec3 texture_a, texture_b;  // texture coordinates
+};
+static_assert(sizeof(FakeVertex) == 48);
+
+struct EdgeTable {
+  std::vector<FakeVertex> edges;
+  std::vector<std::array<uint32_t, 9>> of_prism;  // in the numbering of section.h
+};
+// `share`: prisms that meet at an edge with the same texture coordinates use one entry; otherwise each has nine.
+EdgeTable edge_table(const ShellPrisms& shell, bool share);
+
+}  // namespace volumark

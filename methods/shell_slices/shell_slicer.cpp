@@ -1,0 +1,185 @@
+#include "methods/shell_slices/shell_slicer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <glm/packing.hpp>
+
+#include "programs/shell_slices_frag.h"
+
+namespace volumark {
+namespace {
+
+constexpr Format kFormats[] = {Format::RGBA32F, Format::RGBA16F, Format::RGBA8};
+
+float largest_channel(const ShellTexture& texture) {
+  float largest = 0;
+  for (const glm::vec4& texel : texture.texels) {
+    largest = std::max({largest, texel.r, texel.g, texel.b, texel.a});
+  }
+  return largest;
+}
+
+// Texels in units of `scale`.
+std::vector<std::byte> packed(const ShellTexture& texture, Format format, float scale) {
+  const size_t size = texel_bytes(format);
+  std::vector<std::byte> out(texture.texels.size() * size);
+  for (size_t i = 0; i < texture.texels.size(); ++i) {
+    const glm::vec4 texel = texture.texels[i] / scale;
+    std::byte* at = out.data() + i * size;
+    if (format == Format::RGBA32F) {
+      std::memcpy(at, &texel, size);
+    } else if (format == Format::RGBA16F) {
+      const uint64_t bits = glm::packHalf4x16(texel);
+      std::memcpy(at, &bits, size);
+    } else {
+      const uint32_t bits = glm::packUnorm4x8(texel);
+      std::memcpy(at, &bits, size);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<ParameterInfo> shell_parameter_list(const std::vector<ParameterInfo>& own) {
+  using namespace shell_parameters;
+  std::vector<ParameterInfo> out = {kPlanes.info()};
+  out.insert(out.end(), own.begin(), own.end());
+  for (const ParameterInfo& info :
+       {kReject.info(), kOpacityCorrection.info(), kTargetFormat.info(), kTextureFormat.info()}) {
+    out.push_back(info);
+  }
+  return out;
+}
+
+std::optional<std::string> shell_unsupported(const Scene& scene, size_t bytes_a_prism, const BackendInfo& backend) {
+  if (!scene.shell) return "the scene's shell is not loaded";
+  const glm::ivec3 size = scene.shell->colours->size;
+  if (std::max({size.x, size.y, size.z}) > backend.limits.texture_3d) {
+    return fmt::format("a texture of {} x {} x {} texels; {} takes {} an axis", size.x, size.y, size.z, backend.id,
+                       backend.limits.texture_3d);
+  }
+  const size_t bytes = bytes_a_prism * scene.shell->prisms();
+  if (bytes > backend.limits.storage_buffer_bytes) {
+    return fmt::format("{} bytes of vertices; {} takes {} in a storage buffer", bytes, backend.id,
+                       backend.limits.storage_buffer_bytes);
+  }
+  return std::nullopt;
+}
+
+ShellSlicer::ShellSlicer(const Scene& scene, const Values& values, Device& device, const Variant& variant)
+    : device_(device),
+      shell_(shell_prisms(*scene.shell)),
+      reject_(static_cast<Reject>(shell_parameters::kReject.index(values))),
+      label_(variant.label),
+      planes_(static_cast<int>(shell_parameters::kPlanes(values))),
+      uniforms_(device, "shell uniforms") {
+  try {
+    create_texture(*scene.shell->colours, shell_parameters::kTextureFormat.index(values));
+    create_pipeline(values, variant);
+  } catch (...) {
+    release();
+    throw;
+  }
+}
+
+ShellSlicer::~ShellSlicer() { release(); }
+
+void ShellSlicer::release() {
+  if (pipeline_) device_.destroy(pipeline_);
+  if (program_) device_.destroy(program_);
+  if (texture_) device_.destroy(texture_);
+}
+
+void ShellSlicer::create_texture(const ShellTexture& texture, size_t format) {
+  texture_size_ = texture.size;
+  const float largest = largest_channel(texture);
+  if (format > 0 && largest > 0) texture_scale_ = largest;
+  const std::vector<std::byte> data = packed(texture, kFormats[format], texture_scale_);
+  TextureDesc desc;
+  desc.label = "volumetric texture";
+  desc.dimension = 3;
+  desc.format = kFormats[format];
+  desc.width = texture.size.x;
+  desc.height = texture.size.y;
+  desc.depth = texture.size.z;
+  desc.data = data;
+  texture_ = device_.create_texture(desc);
+  texture_bytes_ = data.size();
+}
+
+void ShellSlicer::create_pipeline(const Values& values, const Variant& variant) {
+  ProgramDesc program;
+  program.label = variant.label;
+  program.stages = {variant.vertex, &programs::shell_slices_frag};
+  program.bindings = {{0, BindingKind::Uniform}, {1, BindingKind::Sampled, 3}};
+  program.bindings.insert(program.bindings.end(), variant.bindings.begin(), variant.bindings.end());
+  const bool linear = shell_parameters::kOpacityCorrection.index(values) == 1;
+  program.constants = {{"VM_LINEAR_OPACITY", linear ? 1 : 0}};
+  program.constants.insert(program.constants.end(), variant.constants.begin(), variant.constants.end());
+  program.cpu = variant.cpu;
+  program_ = device_.create_program(program);
+  PipelineDesc pipeline;
+  pipeline.label = variant.label;
+  pipeline.program = program_;
+  pipeline.vertex_layouts = variant.vertex_layouts;
+  pipeline.blend = Blend::Over;
+  pipeline.colour_format = target_format_of(values);
+  pipeline_ = device_.create_pipeline(pipeline);
+}
+
+void ShellSlicer::render(const View& view, Device& device, Texture target) {
+  const int width = device.desc(target).width, height = device.desc(target).height;
+  device.begin_zone("classify");
+  ShellFrame frame = shell_frame(shell_, view, width, height, planes_);
+  tests_ = {};
+  classify(frame);
+  device.end_zone();
+
+  device.begin_zone("upload");
+  frame.uniforms.texture = {.5F / static_cast<float>(texture_size_.z), 1 - .5F / static_cast<float>(texture_size_.z),
+                            static_cast<float>(frame.step), texture_scale_};
+  std::vector<DrawDesc> draws = upload(frame);
+  if (!draws.empty()) {
+    const Buffer block = uniforms_.upload(bytes_of(frame.uniforms));
+    for (DrawDesc& draw : draws) {
+      draw.pipeline = pipeline_;
+      draw.bindings.push_back(bind_uniform(0, block));
+      draw.bindings.push_back(bind_sampled(1, texture_, {Filter::Linear, Wrap::Repeat}));
+    }
+  }
+  device.end_zone();
+
+  device.begin_zone("raster");
+  PassDesc pass;
+  pass.label = label_;
+  pass.colour = target;
+  device.begin_pass(pass);
+  for (const DrawDesc& draw : draws) device.draw(draw);
+  device.end_pass();
+  device.end_zone();
+
+  counters_ = {{"prisms", static_cast<int64_t>(shell_.prisms.size())},
+               {"excluded", shell_.degenerate + shell_.self_intersecting},
+               {"self_intersecting", shell_.self_intersecting},
+               {"degenerate", shell_.degenerate},
+               {"planes", frame.planes},
+               {"tests", tests_.tests},
+               {"rejected", tests_.rejected},
+               {"draws", static_cast<int64_t>(draws.size())},
+               {"texture_bytes", static_cast<int64_t>(texture_bytes_)}};
+  count(counters_);
+}
+
+void SectionCounts::put(Counters& counters) const {
+  counters["triangles"] = by_corners[3];
+  counters["quadrilaterals"] = by_corners[4];
+  counters["pentagons"] = by_corners[5];
+  counters["twisted"] = twisted;
+}
+
+}  // namespace volumark

@@ -1,0 +1,220 @@
+// Twin of shell_slices.frag and of the three vertex programs. Vertices one by one, in the very arithmetic of the host
+// (shell_frame.h); fragments on SIMD lanes.
+#include "methods/shell_slices/shell_twin.h"
+
+#include "methods/shell_slices/section.h"
+#include "methods/shell_slices/shell_frame.h"
+
+// After the headers without Highway.
+#include "backends/cpu/highway_targets.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "methods/shell_slices/shell_twin.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "methods/volume/volume_twin-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace volumark {
+namespace HWY_NAMESPACE {
+namespace {
+
+const ShellUniforms& uniforms_of(const CpuBindings& bindings) {
+  return *reinterpret_cast<const ShellUniforms*>(bindings.buffers[0].data);
+}
+
+// ---- Vertices ----
+void put_vertex(VertexBatch& batch, size_t i, const glm::vec2& ndc, const glm::vec3& texture) {
+  const float position[4] = {ndc.x, ndc.y, .5F, 1.F};
+  std::copy_n(position, 4, batch.position + 4 * i);
+  std::copy_n(&texture.x, 3, batch.varyings + batch.varying_stride * i);
+}
+
+void software_vertex(const CpuBindings&, VertexBatch& batch) {
+  for (size_t i = 0; i < batch.count; ++i) {
+    const float* ndc = attribute_of(batch, 0, i);
+    const float* texture = attribute_of(batch, 1, i);
+    put_vertex(batch, i, {ndc[0], ndc[1]}, {texture[0], texture[1], texture[2]});
+  }
+}
+
+void hybrid_vertex(const CpuBindings& bindings, VertexBatch& batch) {
+  const ShellUniforms& u = uniforms_of(bindings);
+  const auto* edges = reinterpret_cast<const FakeVertex*>(bindings.buffers[2].data);
+  for (size_t i = 0; i < batch.count; ++i) {
+    const float* pair = attribute_of(batch, 0, i);
+    const FakeVertex& edge = edges[static_cast<size_t>(pair[0])];
+    const float plane = pair[1];
+    const EdgeWeights weights = edge_weights(plane_depth(u, edge.a) - plane, plane_depth(u, edge.b) - plane);
+    put_vertex(batch, i, to_ndc(u, on_edge(weights, edge.a, edge.b), plane),
+               on_edge(weights, edge.texture_a, edge.texture_b));
+  }
+}
+
+// The weighted sums of the GLSL choose what the branches choose; one twin serves both.
+template <bool listed>
+void hardware_vertex(const CpuBindings& bindings, VertexBatch& batch) {
+  const ShellUniforms& u = uniforms_of(bindings);
+  const auto* corners = reinterpret_cast<const glm::vec3*>(bindings.buffers[2].data);
+  const auto* pairs = reinterpret_cast<const uint32_t*>(bindings.buffers[3].data);
+  for (size_t i = 0; i < batch.count; ++i) {
+    size_t vertex = batch.vertex_index[i];
+    float plane = u.lens[2] - 1.F - static_cast<float>(batch.instance);
+    if constexpr (listed) {
+      const uint32_t* pair = pairs + 2 * (vertex / 6);
+      vertex = 6 * static_cast<size_t>(pair[0]) + vertex % 6;
+      plane = static_cast<float>(pair[1]);
+    }
+    const glm::vec3* p = corners + 12 * vertex;
+    float depth[6];
+    bool far[6];
+    for (size_t c = 0; c < 6; ++c) {
+      depth[c] = plane_depth(u, p[c]);
+      far[c] = depth[c] >= plane;
+    }
+    size_t a = 0, b = 0;
+    if (far[0] != far[1]) {
+      b = 1;
+    } else {
+      for (size_t other = 2; other < 6 && b == 0; other += 2) {
+        const size_t third = 6 - other;
+        const bool lower = far[0] != far[other], upper = far[1] != far[other + 1];
+        const bool reversed = far[third] != far[third + 1] && far[third];
+        if (lower && (!upper || far[0] != reversed)) {
+          b = other;
+        } else if (upper) {
+          a = 1;
+          b = other + 1;
+        }
+      }
+    }
+    if (b == 0) {
+      put_vertex(batch, i, {4.F, 4.F}, glm::vec3(0));
+      continue;
+    }
+    const EdgeWeights weights = edge_weights(depth[a] - plane, depth[b] - plane);
+    put_vertex(batch, i, to_ndc(u, on_edge(weights, p[a], p[b]), plane), on_edge(weights, p[6 + a], p[6 + b]));
+  }
+}
+
+// ---- Fragments ----
+
+// The two texels along a repeating axis and the weight of the second. The coordinate may be anything finite.
+struct RepeatCell {
+  Ints i0, i1;
+  Floats t;
+};
+HWY_INLINE RepeatCell repeat_cell(Floats coordinate, int extent) {
+  const IntTag di;
+  const Floats at =
+      hn::MulSub(hn::Sub(coordinate, hn::Floor(coordinate)), splat(static_cast<float>(extent)), splat(.5F));
+  const Floats floor = hn::Floor(at);
+  const Ints last = hn::Set(di, extent - 1), zero = hn::Zero(di);
+  Ints i0 = hn::Min(truncate(floor), last);
+  i0 = hn::IfThenElse(hn::Lt(i0, zero), last, i0);
+  Ints i1 = hn::Add(i0, hn::Set(di, 1));
+  i1 = hn::IfThenElse(hn::Gt(i1, last), zero, i1);
+  return {i0, i1, hn::Sub(at, floor)};
+}
+
+// textureLod of RGBA32F texels, linear and repeating: eight 128-bit loads a lane, interpolated as whole texels.
+HWY_INLINE Rgba sample_texels(const CpuTexture& texture, Floats u, Floats v, Floats w) {
+  const FloatTag d;
+  const IntTag di;
+  const hn::Full128<float> d4;
+  const RepeatCell x = repeat_cell(u, texture.width), y = repeat_cell(v, texture.height),
+                   z = repeat_cell(w, texture.depth);
+  const Ints row = hn::Set(di, static_cast<int32_t>(texture.row_stride)),
+             slice = hn::Set(di, static_cast<int32_t>(texture.slice_stride));
+  const Ints y0 = hn::Mul(y.i0, row), y1 = hn::Mul(y.i1, row), z0 = hn::Mul(z.i0, slice), z1 = hn::Mul(z.i1, slice);
+  alignas(64) int32_t x_at[2][kMaxLanes], row_at[4][kMaxLanes];
+  alignas(64) float t[3][kMaxLanes], quad[4 * kMaxLanes];
+  hn::Store(hn::ShiftLeft<2>(x.i0), di, x_at[0]);
+  hn::Store(hn::ShiftLeft<2>(x.i1), di, x_at[1]);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y0, z0)), di, row_at[0]);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y1, z0)), di, row_at[1]);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y0, z1)), di, row_at[2]);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y1, z1)), di, row_at[3]);
+  store(x.t, t[0]);
+  store(y.t, t[1]);
+  store(z.t, t[2]);
+  const auto* texels = reinterpret_cast<const float*>(texture.data);
+  for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
+    const auto tx = hn::Set(d4, t[0][lane]), ty = hn::Set(d4, t[1][lane]), tz = hn::Set(d4, t[2][lane]);
+    const auto mix4 = [&](auto a, auto b, auto s) HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), s, a); };
+    const auto along_row = [&](int r) HWY_ATTR {
+      const float* base = texels + row_at[r][lane];
+      return mix4(hn::LoadU(d4, base + x_at[0][lane]), hn::LoadU(d4, base + x_at[1][lane]), tx);
+    };
+    const auto low = mix4(along_row(0), along_row(1), ty), high = mix4(along_row(2), along_row(3), ty);
+    hn::Store(mix4(low, high, tz), d4, quad + 4 * lane);
+  }
+  Rgba out;
+  hn::LoadInterleaved4(d, quad, out.r, out.g, out.b, out.a);
+  return out;
+}
+
+// The int32 offsets of sample_texels, in floats, reach.
+bool fits_texels(const CpuTexture& texture) {
+  return texture.format == Format::RGBA32F && texture.slice_stride * texture.depth < (ptrdiff_t{1} << 29);
+}
+
+template <bool linear_opacity, bool texels>
+void shade(const CpuBindings& bindings, FragmentBatch& batch) {
+  const ShellUniforms& u = uniforms_of(bindings);
+  const CpuTexture& colours = bindings.textures[1];
+  const Floats one = splat(1.F), tiny = splat(1e-30F), scale = splat(u.texture[3]);
+  for_lanes(batch.count, [&](size_t i) HWY_ATTR {
+    const Floats x = hn::Mul(hn::MulAdd(load(batch.x + i), splat(u.window[0]), splat(-1.F)), splat(u.window[2]));
+    const Floats y = hn::Mul(hn::MulAdd(load(batch.y + i), splat(u.window[1]), one), splat(u.window[3]));
+    const Floats len = hn::Mul(splat(u.texture[2]), hn::Sqrt(hn::Add(one, hn::MulAdd(x, x, hn::Mul(y, y)))));
+    const Floats w = hn::Min(hn::Max(load(batch.varyings[2] + i), splat(u.texture[0])), splat(u.texture[1]));
+    const Floats s = load(batch.varyings[0] + i), t = load(batch.varyings[1] + i);
+    const Rgba stored = texels ? sample_texels(colours, s, t, w) : sample_3d(colours, s, t, w);
+    const Floats tau = hn::Mul(stored.a, scale);
+    const Floats alpha = opacity_of<linear_opacity>(hn::Mul(tau, len));
+    const auto seen = hn::Gt(tau, tiny);
+    const Floats weight = hn::Mul(hn::IfThenElse(seen, hn::Div(alpha, hn::IfThenElse(seen, tau, one)), len), scale);
+    store_rgba(batch, i, {hn::Mul(stored.r, weight), hn::Mul(stored.g, weight), hn::Mul(stored.b, weight), alpha});
+  });
+}
+
+template <bool linear_opacity>
+void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
+  if (fits_texels(bindings.textures[1])) return shade<linear_opacity, true>(bindings, batch);
+  shade<linear_opacity, false>(bindings, batch);
+}
+
+CpuKernels kernels_of(std::span<const int32_t> constants, CpuVertexKernel vertex) {
+  CpuKernels kernels;
+  kernels.vertex = vertex;
+  kernels.fragment = constants[0] != 0 ? fragment<true> : fragment<false>;
+  kernels.varyings = 3;
+  kernels.reads_front_facing = false;
+  return kernels;
+}
+
+CpuKernels specialise_software(std::span<const int32_t> constants) { return kernels_of(constants, software_vertex); }
+CpuKernels specialise_hybrid(std::span<const int32_t> constants) { return kernels_of(constants, hybrid_vertex); }
+CpuKernels specialise_hardware(std::span<const int32_t> constants) {
+  return kernels_of(constants, constants[2] != 0 ? hardware_vertex<true> : hardware_vertex<false>);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace volumark
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace volumark {
+HWY_EXPORT(specialise_software);
+HWY_EXPORT(specialise_hybrid);
+HWY_EXPORT(specialise_hardware);
+const CpuProgram shell_software_twin{
+    "shell_software", [](std::span<const int32_t> c) { return HWY_DYNAMIC_DISPATCH(specialise_software)(c); }};
+const CpuProgram shell_hybrid_twin{
+    "shell_hybrid", [](std::span<const int32_t> c) { return HWY_DYNAMIC_DISPATCH(specialise_hybrid)(c); }};
+const CpuProgram shell_hardware_twin{
+    "shell_hardware", [](std::span<const int32_t> c) { return HWY_DYNAMIC_DISPATCH(specialise_hardware)(c); }};
+}  // namespace volumark
+#endif
