@@ -9,13 +9,14 @@
 namespace volumark {
 namespace {
 
-VoxelType parse_type(const JsonNode& node) {
-  const std::string name = node.one_of({"u8", "u16", "i16", "f32"});
+VoxelType type_named(const std::string& name) {
   return name == "u8"    ? VoxelType::U8
          : name == "u16" ? VoxelType::U16
          : name == "i16" ? VoxelType::I16
                          : VoxelType::F32;
 }
+
+VoxelType parse_type(const JsonNode& node) { return type_named(node.one_of({"u8", "u16", "i16", "f32"})); }
 
 int whole_or(const JsonObject& object, const char* key, int fallback, int lo, int hi) {
   return object.has(key) ? object.at(key).integer(lo, hi) : fallback;
@@ -90,7 +91,9 @@ RawLayout parse_raw(const JsonNode& node) {
   const JsonObject object(node, {"size", "type", "endian", "header_bytes", "encoding", "member"});
   RawLayout raw;
   raw.size = parse_size(object.at("size"));
-  raw.type = parse_type(object.at("type"));
+  const std::string type = object.at("type").one_of({"u8", "i8", "u16", "i16", "f32"});
+  raw.signed_bytes = type == "i8";
+  raw.type = type_named(raw.signed_bytes ? "u8" : type);
   if (const auto endian = object.find("endian")) raw.big_endian = endian->one_of({"little", "big"}) == "big";
   if (raw.type != VoxelType::U8 && !object.has("endian")) object.fail("missing key \"endian\" (\"little\" or \"big\")");
   raw.header_bytes = static_cast<size_t>(whole_or(object, "header_bytes", 0, 0, 1 << 30));

@@ -48,6 +48,11 @@ void find_range(Volume& volume, NonFinite non_finite, const std::string& what) {
 
 }  // namespace
 
+void from_signed_bytes(Volume& volume) {
+  for (std::byte& voxel : volume.voxels) voxel ^= std::byte{0x80};  // stored + 128, in two's complement
+  volume.intercept -= 128 * volume.slope;
+}
+
 void finish_volume(Volume& volume, NonFinite non_finite, const std::string& what) {
   switch (volume.type) {
     case VoxelType::U8:

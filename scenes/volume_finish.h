@@ -11,6 +11,10 @@ namespace volumark {
 // replace them by a stored 0.
 enum class NonFinite { Refuse, Zero };
 
+// Voxels that were read as U8 but are signed: the same data values from unsigned bytes, so that nothing else need know
+// of signed ones. To be called once, before finish_volume.
+void from_signed_bytes(Volume& volume);
+
 // Sets min_value and max_value. The voxels must be complete. `what` names the file in errors.
 void finish_volume(Volume& volume, NonFinite non_finite, const std::string& what);
 

@@ -70,10 +70,13 @@ glm::ivec3 size_of(const Header& header, const std::string& what) {
   return size;
 }
 
+constexpr int kSignedBytes = 256;  // DT_INT8
+
 VoxelType type_of(const Header& header, const std::string& what) {
   const int code = header.get<int16_t>(70);
   switch (code) {
     case 2:
+    case kSignedBytes:
       return VoxelType::U8;
     case 4:
       return VoxelType::I16;
@@ -83,8 +86,8 @@ VoxelType type_of(const Header& header, const std::string& what) {
       return VoxelType::U16;
     default:
       throw DataError(
-          fmt::format("{}: data type {} is not supported; expected 2 (uint8), 4 (int16), 512 (uint16) or 16 "
-                      "(float32)",
+          fmt::format("{}: data type {} is not supported; expected 2 (uint8), 256 (int8), 4 (int16), 512 "
+                      "(uint16) or 16 (float32)",
                       what, code));
   }
 }
@@ -172,6 +175,7 @@ Volume read_nifti(std::span<const std::byte> file, NonFinite non_finite, const s
   }
   source.skip(static_cast<size_t>(offset) - kHeaderBytes);
   volume.voxels = source.read_voxels(volume.size, volume.type, header.big_endian());
+  if (header.get<int16_t>(70) == kSignedBytes) from_signed_bytes(volume);
   finish_volume(volume, non_finite, what);
   return volume;
 }

@@ -151,16 +151,21 @@ class NrrdHeader {
   const std::string& what_;
 };
 
+bool type_is(const NrrdHeader& header, std::initializer_list<const char*> names) {
+  return std::find(names.begin(), names.end(), lowered(header.get("type"))) != names.end();
+}
+
+bool signed_bytes(const NrrdHeader& header) { return type_is(header, {"signed char", "int8", "int8_t"}); }
+
 VoxelType parse_type(const NrrdHeader& header) {
-  const std::string name = lowered(header.get("type"));
-  const auto is = [&](std::initializer_list<const char*> names) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
+  const auto is = [&](std::initializer_list<const char*> names) { return type_is(header, names); };
+  if (signed_bytes(header)) return VoxelType::U8;
   if (is({"uchar", "unsigned char", "uint8", "uint8_t"})) return VoxelType::U8;
   if (is({"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"})) return VoxelType::U16;
   if (is({"short", "short int", "signed short", "signed short int", "int16", "int16_t"})) return VoxelType::I16;
-  if (name == "float") return VoxelType::F32;
-  header.fail(fmt::format("type \"{}\" is not supported; expected uint8, uint16, int16 or float", name));
+  if (is({"float"})) return VoxelType::F32;
+  header.fail(fmt::format("type \"{}\" is not supported; expected uint8, int8, uint16, int16 or float",
+                          lowered(header.get("type"))));
 }
 
 glm::dvec3 parse_sizes(const NrrdHeader& header) {
@@ -281,6 +286,7 @@ Volume read_nrrd(std::span<const std::byte> file, const ReadBeside& beside, NonF
   ByteSource source(data, gzip, what);
   source.skip(static_cast<size_t>(byte_skip));
   volume.voxels = source.read_voxels(size, volume.type, swap);
+  if (signed_bytes(header)) from_signed_bytes(volume);
   finish_volume(volume, non_finite, what);
   return volume;
 }

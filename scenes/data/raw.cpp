@@ -16,6 +16,7 @@ Volume read_raw(std::span<const std::byte> file, const RawLayout& layout, NonFin
   source.skip(layout.header_bytes);
   volume.voxels = source.read_voxels(layout.size, layout.type, layout.big_endian);
   centre_at_origin(volume);
+  if (layout.signed_bytes) from_signed_bytes(volume);
   finish_volume(volume, non_finite, what);
   return volume;
 }

@@ -16,7 +16,8 @@ struct RawLayout {
   bool big_endian = false;
   size_t header_bytes = 0;  // skipped, after decompression
   bool gzip = false;
-  std::string member{};  // the samples are this file of a tar archive; empty: no archive
+  std::string member{};       // the samples are this file of a tar archive; empty: no archive
+  bool signed_bytes = false;  // of U8: bytes are -128 to 127
 };
 
 // Spacing 1, centred at the world's origin. Throws DataError.

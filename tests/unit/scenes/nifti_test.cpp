@@ -89,6 +89,21 @@ TEST(Nifti, AllTypesAndScaling) {
   EXPECT_EQ(read(f.bytes()).at(1, 0, 0), 2);
 }
 
+// Signed bytes are held as unsigned ones, 128 higher, under the file's own slope.
+TEST(Nifti, SignedBytes) {
+  File f;
+  f.put<int16_t>(70, 256).put<float>(112, 0.5f).put<float>(116, 3);
+  f.samples = encode<int8_t>({-128, -1, 0, 1, 127, -100, 100, 5, 6, 7, 8, 9});
+  const Volume v = read(f.bytes());
+  EXPECT_EQ(v.type, VoxelType::U8);
+  EXPECT_EQ(v.at(0, 0, 0), -61);
+  EXPECT_EQ(v.at(1, 0, 0), 2.5);
+  EXPECT_EQ(v.at(2, 0, 0), 3);
+  EXPECT_EQ(v.at(1, 1, 0), 66.5);
+  EXPECT_EQ(v.min_value, -61);
+  EXPECT_EQ(v.max_value, 66.5);
+}
+
 TEST(Nifti, SformGivesOrientation) {
   const Volume v = read(File().srow({0, -3, 0, 10, 2, 0, 0, 20, 0, 0, 4, 30}).bytes());
   EXPECT_EQ(v.spacing, glm::dvec3(2, 3, 4));

@@ -56,6 +56,10 @@ TEST(Nrrd, AllTypes) {
   EXPECT_EQ(u8.at(2, 1, 1), 200);
   const Volume u16 = read(bytes_of(header("uint16", end)) + encode<uint16_t>(std::vector<uint16_t>(12, 60000)));
   EXPECT_EQ(u16.at(2, 1, 1), 60000);
+  const Volume i8 = read(bytes_of(header("signed char", end)) + encode<int8_t>(std::vector<int8_t>(12, -7)));
+  EXPECT_EQ(i8.type, VoxelType::U8);
+  EXPECT_EQ(i8.at(2, 1, 1), -7);
+  EXPECT_EQ(i8.max_value, -7);
   const Volume f32 = read(bytes_of(header("float", end)) + encode<float>(std::vector<float>(12, 0.25f)));
   EXPECT_EQ(f32.at(2, 1, 1), 0.25);
 }

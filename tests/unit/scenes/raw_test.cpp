@@ -24,6 +24,17 @@ TEST(Raw, LayoutIsHonoured) {
   }
 }
 
+TEST(Raw, SignedBytes) {
+  RawLayout layout{{3, 1, 1}, VoxelType::U8, false, 0, false};
+  layout.signed_bytes = true;
+  const Volume v = read_raw(encode<int8_t>({-128, 0, 127}), layout, NonFinite::Refuse, "t.raw");
+  EXPECT_EQ(v.at(0, 0, 0), -128);
+  EXPECT_EQ(v.at(1, 0, 0), 0);
+  EXPECT_EQ(v.at(2, 0, 0), 127);
+  EXPECT_EQ(v.min_value, -128);
+  EXPECT_EQ(v.max_value, 127);
+}
+
 TEST(Raw, WrongSizeSaysExpectedAndFound) {
   const RawLayout layout{{3, 2, 1}, VoxelType::U16, false, 0, false};
   EXPECT_THAT(test::message_of<DataError>([&] { read_raw(Bytes(11), layout, NonFinite::Refuse, "t.raw"); }),

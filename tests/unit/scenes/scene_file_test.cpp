@@ -106,7 +106,7 @@ TEST(SceneFile, VolumeErrors) {
               HasSubstr("right angles"));
   EXPECT_THAT(error_with("/volume", {{"file", "a.raw"}, {"raw", {{"size", 4}, {"type", "u16"}}}}), HasSubstr("endian"));
   EXPECT_THAT(error_with("/volume", {{"file", "a.raw"}, {"raw", {{"size", 4}, {"type", "u32"}}}}),
-              AllOf(HasSubstr("/volume/raw/type"), HasSubstr("u8, u16, i16, f32")));
+              AllOf(HasSubstr("/volume/raw/type"), HasSubstr("u8, i8, u16, i16, f32")));
   EXPECT_THAT(error_with("/volume", {{"file", "a.nrrd"}, {"non_finite", "keep"}}), HasSubstr("refuse, zero"));
 }
 
