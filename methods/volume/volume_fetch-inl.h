@@ -23,7 +23,7 @@ struct alignas(64) Positions {
 };
 
 template <Format format>
-HWY_NOINLINE void fetch_as(const VolumeBindings& b, const Positions& at, size_t count, float* values) {
+static HWY_NOINLINE void fetch_as(const VolumeBindings& b, const Positions& at, size_t count, float* values) {
   const VolumeView view = volume_view(b.volume);
   const Floats3 scale = splat3(b.vm.texture_scale), offset = splat3(b.vm.texture_offset);
   VolumeCells cells;
@@ -39,7 +39,7 @@ HWY_NOINLINE void fetch_as(const VolumeBindings& b, const Positions& at, size_t 
 }
 
 // sample_value() of each point.
-HWY_NOINLINE inline void fetch(const VolumeBindings& b, const Positions& at, size_t count, float* values) {
+static inline HWY_NOINLINE void fetch(const VolumeBindings& b, const Positions& at, size_t count, float* values) {
   if (fits_volume_view(b.volume)) {
     switch (b.volume.format) {
       case Format::R8:
