@@ -9,17 +9,45 @@
 
 namespace volumark {
 
-std::map<std::string, std::string> deciding_options(const RunOptions& options) {
-  const DeviceOptions& device = options.cell.device;
-  return {{"threads", std::to_string(device.threads)},
-          {"gl_platform", device.gl_platform},
-          {"vk_device", device.vk_device},
-          {"validation", device.validation ? "on" : "off"},
-          {"references", options.references ? "on" : "off"},
-          {"ignore_effects", options.ignore_effects ? "on" : "off"}};
+namespace {
+
+// When a cell is done: more passes, a longer budget or a narrower interval make other figures of the same cell.
+std::string sampling_of(const Experiment& experiment) {
+  return fmt::format("{} to {} passes, {:g} s, {:g} %, timeout {:g} s", experiment.least, experiment.most,
+                     experiment.budget, 100 * experiment.precision, experiment.timeout);
 }
 
-std::string resume_differences(const Results& earlier, const RunOptions& options) {
+// What makes a cell a wrong image, or its backends disagree.
+std::string limits_of(const Experiment& experiment) {
+  std::vector<std::string> out;
+  for (const auto& [metric, worst] : experiment.limits) out.push_back(fmt::format("{} {:g}", metric, worst));
+  for (const auto& [metric, worst] : experiment.finest_limits)
+    out.push_back(fmt::format("finest {} {:g}", metric, worst));
+  if (experiment.parity > 0) out.push_back(fmt::format("parity {:g}", experiment.parity));
+  if (experiment.references) out.push_back(fmt::format("reference to {:g}", experiment.reference_tolerance));
+  return fmt::format("{}", fmt::join(out, ", "));
+}
+
+}  // namespace
+
+std::map<std::string, std::string> deciding_options(const RunOptions& options,
+                                                    const std::vector<Experiment>& experiments) {
+  const DeviceOptions& device = options.cell.device;
+  std::map<std::string, std::string> out = {{"threads", std::to_string(device.threads)},
+                                            {"gl_platform", device.gl_platform},
+                                            {"vk_device", device.vk_device},
+                                            {"validation", device.validation ? "on" : "off"},
+                                            {"references", options.references ? "on" : "off"},
+                                            {"ignore_effects", options.ignore_effects ? "on" : "off"}};
+  for (const Experiment& experiment : experiments) {
+    out["sampling of " + experiment.name] = sampling_of(experiment);
+    out["limits of " + experiment.name] = limits_of(experiment);
+  }
+  return out;
+}
+
+std::string resume_differences(const Results& earlier, const RunOptions& options,
+                               const std::vector<Experiment>& experiments) {
   std::vector<std::string> out;
   const auto compare = [&](const std::string& what, const std::string& was, const std::string& is) {
     if (was != is)
@@ -47,7 +75,7 @@ std::string resume_differences(const Results& earlier, const RunOptions& options
     for (const std::string& name : names) compare(name, value(was, name), value(is, name));
   };
   compare_all(earlier.machine.env, machine.env);
-  compare_all(earlier.run.device, deciding_options(options));
+  compare_all(earlier.run.device, deciding_options(options, experiments));
   std::vector<std::string> sweeps;
   for (const Sweep& sweep : options.sweeps) sweeps.push_back(to_string(sweep));
   compare("--sweep", fmt::format("{}", fmt::join(earlier.run.sweeps, " ")), fmt::format("{}", fmt::join(sweeps, " ")));

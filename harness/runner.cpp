@@ -160,7 +160,7 @@ void Runner::start() {
                                   finished ? "choose another folder with --out" : "go on with --resume"));
   }
   if (earlier && options_.resume) {
-    if (const std::string differs = resume_differences(*earlier, options_); !differs.empty())
+    if (const std::string differs = resume_differences(*earlier, options_, experiments_); !differs.empty())
       throw FolderError(
           fmt::format("{}: its run cannot be gone on with, since figures depend on what differs: {}; choose another "
                       "folder with --out, or replace the run with --overwrite",
@@ -181,7 +181,7 @@ void Runner::start() {
       "views "
       "in turn within a pass, each pass one view further";
   results.run.seed = kSeed;
-  results.run.device = deciding_options(options_);
+  results.run.device = deciding_options(options_, experiments_);
   for (const Sweep& sweep : options_.sweeps) results.run.sweeps.push_back(to_string(sweep));
   results.git = git;
   results.build = build_info();

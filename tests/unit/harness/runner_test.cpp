@@ -211,6 +211,22 @@ TEST_F(RunnerTest, ResumeNamesWhatDiffers) {
   EXPECT_NE(two.find("--overwrite"), std::string::npos) << two;
 }
 
+TEST_F(RunnerTest, ResumeNamesAnotherSamplingAndOtherLimits) {
+  run(experiment());
+  resume_ = true;
+  EXPECT_EQ(run(experiment()).skipped, 3);
+  Json longer = experiment();
+  longer["sampling"]["most"] = 77;
+  const std::string sampling = refusal([&] { return run(longer); });
+  EXPECT_NE(sampling.find("sampling of "), std::string::npos) << sampling;
+  EXPECT_NE(sampling.find("to 77 passes"), std::string::npos) << sampling;
+  Json stricter = experiment();
+  stricter["limits"]["rmse"] = 0.0125;
+  const std::string limits = refusal([&] { return run(stricter); });
+  EXPECT_NE(limits.find("limits of "), std::string::npos) << limits;
+  EXPECT_NE(limits.find("rmse 0.0125"), std::string::npos) << limits;
+}
+
 TEST_F(RunnerTest, RunsWithSweepsAreToldApart) {
   change_ = [](RunOptions& options) { options.sweeps = {parse_sweep("step=4,2")}; };
   const RunOutcome swept = run(experiment());
