@@ -74,7 +74,12 @@ void judge(Convergence& row, const OrderFit& fit, bool expected_here, double bou
                        "the reference's bound";
   } else if (fit.order >= row.expected - kOrderTolerance) {
     row.verdict = "pass";
-    row.reason = fit.order > row.expected + kOrderTolerance ? "converges faster than expected" : "";
+    if (fit.order > row.expected + kOrderTolerance)
+      row.reason = fmt::format(
+          "faster than expected: fitted order {:.2f}, expected {:.2f}, more than {} above it (an error that changes "
+          "its "
+          "sign, or steps still too coarse)",
+          fit.order, row.expected, kOrderTolerance);
   } else {
     row.verdict = "fail";
     row.reason =

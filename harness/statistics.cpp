@@ -102,7 +102,11 @@ Stats stats_of(std::span<const double> samples, std::span<const int64_t> strata,
 
 namespace {
 
-// The longest stretch of at least three points whose local slopes agree within half an order; of equals the finest.
+// Below this local slope the error does not fall.
+constexpr double kFalls = 0.25;
+
+// The longest stretch of at least three points whose local slopes all fall and agree within half an order; of equals
+// the finest.
 struct Stretch {
   size_t begin = 0, end = 0;  // points [begin, end)
 };
@@ -113,7 +117,7 @@ Stretch steady_stretch(const std::vector<double>& slopes) {
     for (size_t end = begin + 1; end < slopes.size(); ++end) {
       lo = std::min(lo, slopes[end]);
       hi = std::max(hi, slopes[end]);
-      if (hi - lo > 0.5) break;
+      if (lo < kFalls || hi - lo > 0.5) break;
       if (end + 2 - begin >= best.end - best.begin) best = {begin, end + 2};
     }
   }
@@ -149,17 +153,16 @@ void fit_line(std::span<const double> steps, std::span<const double> errors, Ord
 OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise) {
   if (steps.size() != errors.size()) throw std::invalid_argument("one error a step expected");
   OrderFit fit;
-  // Usable: until the error stops falling, or comes within three bounds of what the reference knows.
+  // Usable: what lies above three bounds of the reference, less a plateau at its fine end. Where the error stands still
+  // among coarse steps only, they are too coarse to see anything: no floor.
   size_t usable = 0;
-  std::vector<double> slopes;
-  while (usable < errors.size() && std::isfinite(errors[usable]) && errors[usable] > 3 * noise && errors[usable] > 0) {
-    if (usable > 0) {
-      const double slope = std::log(errors[usable] / errors[usable - 1]) / std::log(steps[usable] / steps[usable - 1]);
-      if (slope < 0.25) break;
-      slopes.push_back(slope);
-    }
+  while (usable < errors.size() && std::isfinite(errors[usable]) && errors[usable] > 3 * noise && errors[usable] > 0)
     ++usable;
-  }
+  std::vector<double> slopes;
+  for (size_t i = 1; i < usable; ++i)
+    slopes.push_back(std::log(errors[i] / errors[i - 1]) / std::log(steps[i] / steps[i - 1]));
+  while (!slopes.empty() && slopes.back() < kFalls) slopes.pop_back();
+  usable = std::min(usable, slopes.size() + 1);
   const Stretch stretch = steady_stretch(slopes);
   const size_t count = stretch.end - stretch.begin;
   if (usable < errors.size() && usable > 0) fit.floor = *std::min_element(errors.begin(), errors.end());

@@ -36,8 +36,9 @@ struct OrderFit {
   double floor = 0;  // smallest error, where the error stops falling before the finest step; 0: it never stops
 };
 // error ~ step^order; `steps` falls from coarse to fine. Fitted through the longest stretch of at least three points
-// whose local slopes agree within half an order (of equals the finest), among those before the error stops falling (a
-// local slope below 0.25) or reaches three times `noise` (the reference's bound).
+// whose local slopes are at least 0.25 and agree within half an order (of equals the finest), among those before the
+// error stops falling for good (slopes below 0.25 up to the finest step) or reaches three times `noise` (the
+// reference's bound). A plateau among coarse steps alone is no floor: behind it the error falls.
 OrderFit fit_order(std::span<const double> steps, std::span<const double> errors, double noise);
 // value ~ step^order through all points; none (points: 0) for fewer than three or a number that is not above 0.
 OrderFit fit_power(std::span<const double> steps, std::span<const double> values);

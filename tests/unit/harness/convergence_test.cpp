@@ -47,6 +47,16 @@ TEST(Convergence, TheExpectedOrderPassesAnotherFails) {
   EXPECT_EQ(bad.convergence[0].verdict, "fail");
 }
 
+TEST(Convergence, AnOrderAboveTheExpectedOneIsSaid) {
+  Results within = series("smooth", 2.2, 2), above = series("smooth", 2.3, 2);
+  fit_convergence(within, expecting("smooth"));
+  fit_convergence(above, expecting("smooth"));
+  EXPECT_EQ(within.convergence[0].verdict, "pass");
+  EXPECT_EQ(within.convergence[0].reason, "");
+  EXPECT_EQ(above.convergence[0].verdict, "pass");
+  EXPECT_NE(above.convergence[0].reason.find("2.30"), std::string::npos) << above.convergence[0].reason;
+}
+
 TEST(Convergence, AxesThatCountSlicesRunUpwards) {
   Results results;
   for (const double percent : {400., 100., 800., 200.}) {

@@ -133,6 +133,23 @@ TEST(FitOrder, CoarseStepsOutsideTheAsymptoticRangeAreLeftOut) {
   EXPECT_NEAR(fit.order, 2, 1e-12);
 }
 
+TEST(FitOrder, APlateauOfCoarseStepsIsNoFloor) {
+  std::vector<double> errors = power(2);
+  errors[0] = errors[1] = errors[2];  // three steps that see nothing of the field
+  const OrderFit fit = fit_order(kSteps, errors, 0);
+  EXPECT_EQ(fit.floor, 0);
+  EXPECT_EQ(fit.points, 4);
+  EXPECT_NEAR(fit.order, 2, 1e-12);
+  errors[5] = errors[4];  // and one at the other end, which is one
+  const OrderFit both = fit_order(kSteps, errors, 0);
+  EXPECT_EQ(both.floor, errors[4]);
+  EXPECT_EQ(both.points, 3);
+  EXPECT_NEAR(both.order, 2, 1e-12);
+  const OrderFit flat = fit_order(kSteps, std::vector<double>(6, 0.5), 0);
+  EXPECT_EQ(flat.points, 0) << "a plateau has no order";
+  EXPECT_EQ(flat.floor, 0.5);
+}
+
 TEST(FitOrder, TooFewPointsAreNotFitted) {
   EXPECT_EQ(fit_order(std::vector<double>{2, 1}, std::vector<double>{4, 1}, 0).points, 0);
   EXPECT_EQ(fit_order(kSteps, std::vector<double>(6, 0.0), 0).points, 0);
