@@ -5,6 +5,7 @@
 
 #include "methods/method.h"
 #include "methods/raycast/raycast.h"
+#include "methods/shell_slices/shell_slices.h"
 #include "methods/slices2d/slices2d.h"
 #include "methods/texture3d_slices/texture3d_slices.h"
 #include "methods/texture3d_slices/texture3d_slices_iso.h"
@@ -13,8 +14,9 @@ namespace volumark {
 
 // The one list of methods: add yours here.
 std::span<const Method* const> method_list() {
-  static const std::array<const Method*, 4> list = {&texture3d_slices(), &texture3d_slices_iso(), &raycast(),
-                                                    &slices2d()};
+  static const std::array<const Method*, 7> list = {&texture3d_slices(), &texture3d_slices_iso(), &raycast(),
+                                                    &slices2d(),         &shell_software(),       &shell_hybrid(),
+                                                    &shell_hardware()};
   return list;
 }
 
