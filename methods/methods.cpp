@@ -6,7 +6,11 @@
 #include "methods/method.h"
 #include "methods/raycast/raycast.h"
 #include "methods/shell_slices/shell_slices.h"
+#include "methods/slices2d/slice_mpr.h"
 #include "methods/slices2d/slices2d.h"
+#include "methods/slices2d/slices2d_iso.h"
+#include "methods/slices2d/slices2d_shaded.h"
+#include "methods/slices2d/slices2d_viewport.h"
 #include "methods/texture3d_slices/texture3d_slices.h"
 #include "methods/texture3d_slices/texture3d_slices_iso.h"
 
@@ -14,9 +18,10 @@ namespace volumark {
 
 // The one list of methods: add yours here.
 std::span<const Method* const> method_list() {
-  static const std::array<const Method*, 7> list = {&texture3d_slices(), &texture3d_slices_iso(), &raycast(),
-                                                    &slices2d(),         &shell_software(),       &shell_hybrid(),
-                                                    &shell_hardware()};
+  static const std::array<const Method*, 11> list = {&texture3d_slices(), &texture3d_slices_iso(), &raycast(),
+                                                     &slices2d(),         &slices2d_viewport(),    &slice_mpr(),
+                                                     &slices2d_iso(),     &slices2d_shaded(),      &shell_software(),
+                                                     &shell_hybrid(),     &shell_hardware()};
   return list;
 }
 

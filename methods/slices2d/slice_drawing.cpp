@@ -43,6 +43,8 @@ std::vector<std::byte> SliceDrawing::uniforms_of(const View& view, const Slices&
                                                  int width, int height) const {
   VolumeUniforms uniforms = turned(volume_uniforms(scene_, view, width, height), layout.axis);
   stacks_.fill(uniforms);
+  // Lengths of rays count across the slices only; nothing else in programs without light reads the extent.
+  if (!settings_.slant) uniforms.extent[0] = uniforms.extent[1] = 0;
   uniforms.own[0] = {2.F / static_cast<float>(width), -2.F / static_cast<float>(height),
                      static_cast<float>(slices.stored_at(0)), static_cast<float>(slices.stored - 1)};
   uniforms.own[3] = {static_cast<float>(slices.first), static_cast<float>(slices.distance),

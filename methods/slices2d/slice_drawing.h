@@ -16,6 +16,7 @@ struct SliceSettings {
   int textures = 1;         // slices on a polygon: 1, 2 or 4
   bool interpolate = true;  // between stored slices (rezksalama2000, eq. 1)
   bool corrected = true;    // of several slices on a polygon, each is seen where it lies (eq. 2); true for one
+  bool slant = true;        // a slice is as opaque as each ray's path through its slab; false: as its thickness alone
 };
 
 class SliceDrawing {

@@ -26,6 +26,12 @@ inline const Choice kTextureCoordinates{
     "corrected",
     Ideal<const char*>{"corrected", "texture coordinates"}};
 
+inline const Flag kSlantCorrection{
+    "slant_correction",
+    "on: the opacity of a slice is that of each ray's path through its slab; off: of the slab's thickness, as where "
+    "opacities are fixed for a stack and rays that meet it aslant find it too thin",
+    true, Ideal<bool>{true, "slant of the rays"}};
+
 inline const Flag kInterpolation{
     "interpolation", "on: slices between two stored ones are blended from them; off: the nearest stored one", true,
     Ideal<bool>{true, "interpolation of slices"}};

@@ -18,6 +18,7 @@ SliceSettings slice_settings_of(const Values& values) {
   settings.percent = parameters::kSlices(values);
   settings.textures = 1 << parameters::kTexturesPerPolygon.index(values);
   settings.interpolate = parameters::kInterpolation(values);
+  settings.slant = parameters::kSlantCorrection(values);
   settings.corrected = settings.textures == 1 || parameters::kTextureCoordinates(values) == "corrected";
   return settings;
 }
@@ -28,7 +29,7 @@ double expected_order(const Values& values) {
   const std::string& format = parameters::kVolumeFormat(values);
   const SliceSettings settings = slice_settings_of(values);
   if (stack_classification_of(values) == Classification::Pre || parameters::kTargetFormat(values) != "rgba32f" ||
-      (format != "native" && format != "r32f") || !settings.interpolate || !settings.corrected) {
+      (format != "native" && format != "r32f") || !settings.interpolate || !settings.corrected || !settings.slant) {
     return 0;
   }
   return linear_opacity(values) ? 1 : 2;
@@ -38,23 +39,14 @@ class PreparedSlices2d final : public PreparedMethod {
  public:
   PreparedSlices2d(const Scene& scene, const Values& values, Device& device)
       : stacks_(scene, stack_settings_of(values), device),
-        drawing_(scene, stacks_, slice_settings_of(values), program_of(scene, values), target_format_of(values),
-                 device) {}
+        drawing_(scene, stacks_, slice_settings_of(values),
+                 slices2d_program(scene, stack_classification_of(values), linear_opacity(values)),
+                 target_format_of(values), device) {}
 
   void render(const View& view, Device& device, Texture target) override { drawing_.render(view, device, target); }
   Counters counters() const override { return drawing_.counters(); }
 
  private:
-  static ProgramDesc program_of(const Scene& scene, const Values& values) {
-    ProgramDesc program;
-    program.label = "slices2d";
-    program.stages = {&programs::slices2d_frag};
-    program.bindings = SliceStacks::declarations();
-    program.constants = VolumeResources::constants(scene, stack_classification_of(values), linear_opacity(values));
-    program.cpu = &slices2d_twin;
-    return program;
-  }
-
   SliceStacks stacks_;
   SliceDrawing drawing_;
 };
@@ -67,9 +59,9 @@ class Slices2d final : public Method {
         "Object-aligned slices of 2D textures, the stack chosen for each view, blended back to front",
         "rezksalama2000",
         {parameters::kSlices.info(), parameters::kTexturesPerPolygon.info(), parameters::kTextureCoordinates.info(),
-         parameters::kInterpolation.info(), stack_parameters::kClassification.info(),
-         parameters::kOpacityCorrection.info(), parameters::kTargetFormat.info(), parameters::kVolumeFormat.info(),
-         parameters::kTableSize.info()},
+         parameters::kInterpolation.info(), parameters::kSlantCorrection.info(),
+         stack_parameters::kClassification.info(), parameters::kOpacityCorrection.info(),
+         parameters::kTargetFormat.info(), parameters::kVolumeFormat.info(), parameters::kTableSize.info()},
         {"clip_planes"},
         expected_order};
     return info;
@@ -85,6 +77,16 @@ class Slices2d final : public Method {
 };
 
 }  // namespace
+
+ProgramDesc slices2d_program(const Scene& scene, Classification classification, bool linear_opacity) {
+  ProgramDesc program;
+  program.label = "slices2d";
+  program.stages = {&programs::slices2d_frag};
+  program.bindings = SliceStacks::declarations();
+  program.constants = VolumeResources::constants(scene, classification, linear_opacity);
+  program.cpu = &slices2d_twin;
+  return program;
+}
 
 const Method& slices2d() {
   static const Slices2d method;

@@ -6,10 +6,14 @@
 
 #include "backends/cpu/cpu_program.h"
 #include "methods/method.h"
+#include "methods/volume/volume_parameters.h"
 
 namespace volumark {
 
 const Method& slices2d();
+
+// What SliceDrawing needs to draw scalars (Post) or associated colours (Pre) without lighting.
+ProgramDesc slices2d_program(const Scene& scene, Classification classification, bool linear_opacity);
 
 extern const CpuProgram slices2d_twin;
 

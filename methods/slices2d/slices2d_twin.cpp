@@ -16,50 +16,77 @@ namespace HWY_NAMESPACE {
 namespace {
 
 // ---- One texture of the polygon, shaded and combined ----
-template <bool pre, bool linear_opacity, bool interpolate, class Page>
-HWY_NOINLINE void add_slice(const SliceBindings& b, const Page& page, const Rays& rays, const Meets& meets,
-                            float number, FragmentBatch& batch) {
+// Of the slice on texture `number`: what is left of the rays' stretches where the polygon has so many slices.
+HWY_INLINE Floats length_of(const Rays& rays, const Meets& meets, float number, size_t i) {
+  return hn::IfThenElseZero(hn::Lt(splat(number), rays.count.get(i)), meets.length.get(i));
+}
+template <bool interpolate, class Page>
+HWY_INLINE Rgba sample_at(const SliceBindings& b, const Page& page, const Rays& rays, const Meets& meets, float number,
+                          size_t i) {
+  const Floats k = hn::MulAdd(rays.toward.get(i), splat(number), rays.first.get(i));
+  return sample_slice<interpolate>(b.vm, page, k, {meets.x.get(i), meets.y.get(i), meets.z.get(i)});
+}
+
+// Post-classified scalars in two phases: fetches wait for memory, the transfer function and the exponential for
+// arithmetic; apart, each keeps more of them in flight.
+template <bool interpolate, class Page>
+HWY_NOINLINE void fetch_slice(const SliceBindings& b, const Page& page, const Rays& rays, const Meets& meets,
+                              float number, size_t size, Lane& values) {
+  for_lanes(size, [&](size_t i) HWY_ATTR {
+    if (all_zero(length_of(rays, meets, number, i))) return;
+    values.put(i, normalised_value(b.vm, sample_at<interpolate>(b, page, rays, meets, number, i).r));
+  });
+}
+template <bool linear_opacity>
+HWY_NOINLINE void add_values(const SliceBindings& b, const Rays& rays, const Meets& meets, float number,
+                             const Lane& values, FragmentBatch& batch) {
   const Floats one = splat(1.F);
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
-    const auto drawn = hn::Lt(splat(number), rays.count.get(i));
-    const Floats length = hn::IfThenElseZero(drawn, meets.length.get(i));
+    const Floats length = length_of(rays, meets, number, i);
     if (all_zero(length)) return;
-    const Floats k = hn::MulAdd(rays.toward.get(i), splat(number), rays.first.get(i));
-    const Rgba texel = sample_slice<interpolate>(b.vm, page, k, {meets.x.get(i), meets.y.get(i), meets.z.get(i)});
-    Rgba slice;
-    if constexpr (pre) {
-      slice = shade_classified<linear_opacity>(b, texel, length);
-    } else {
-      const Rgba point = transfer(b, normalised_value(b.vm, texel.r));
-      slice = shade_segment<linear_opacity, false>(b, point, length, {one, one, one});
-    }
-    combine(batch, i, slice);
+    const Rgba point = transfer(b, values.get(i));
+    if (all_zero(point.a)) return;  // adds 0, and leaves all of what is there
+    combine(batch, i, shade_segment<linear_opacity, false>(b, point, length, {one, one, one}));
+  });
+}
+template <bool linear_opacity>
+HWY_NOINLINE void add_classified(const SliceBindings& b, const AnyPage& page, const Rays& rays, const Meets& meets,
+                                 float number, bool interpolate, FragmentBatch& batch) {
+  for_lanes(batch.count, [&](size_t i) HWY_ATTR {
+    const Floats length = length_of(rays, meets, number, i);
+    if (all_zero(length)) return;
+    const Rgba texel = interpolate ? sample_at<true>(b, page, rays, meets, number, i)
+                                   : sample_at<false>(b, page, rays, meets, number, i);
+    combine(batch, i, shade_classified<linear_opacity>(b, texel, length));
   });
 }
 
-template <bool pre, bool linear_opacity, bool interpolate>
-HWY_INLINE void add_slice_of(const SliceBindings& b, const Rays& rays, const Meets& meets, float number,
-                             FragmentBatch& batch) {
-  if constexpr (!pre) {
-    switch (b.page.format) {
-      case Format::R8:
-        return add_slice<pre, linear_opacity, interpolate>(b, ScalarPage<Format::R8>{b}, rays, meets, number, batch);
-      case Format::R16:
-        return add_slice<pre, linear_opacity, interpolate>(b, ScalarPage<Format::R16>{b}, rays, meets, number, batch);
-      case Format::R32F:
-        return add_slice<pre, linear_opacity, interpolate>(b, ScalarPage<Format::R32F>{b}, rays, meets, number, batch);
-      default:
-        break;
-    }
+template <bool interpolate>
+HWY_INLINE void fetch_slice_of(const SliceBindings& b, const Rays& rays, const Meets& meets, float number, size_t size,
+                               Lane& values) {
+  switch (b.page.format) {
+    case Format::R8:
+      return fetch_slice<interpolate>(b, ScalarPage<Format::R8>{b}, rays, meets, number, size, values);
+    case Format::R16:
+      return fetch_slice<interpolate>(b, ScalarPage<Format::R16>{b}, rays, meets, number, size, values);
+    case Format::R32F:
+      return fetch_slice<interpolate>(b, ScalarPage<Format::R32F>{b}, rays, meets, number, size, values);
+    default:
+      return fetch_slice<interpolate>(b, AnyPage{b}, rays, meets, number, size, values);
   }
-  add_slice<pre, linear_opacity, interpolate>(b, AnyPage{b}, rays, meets, number, batch);
 }
 
 template <bool pre, bool linear_opacity, bool interpolate, int textures, bool corrected>
 void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
   const SliceBindings b(bindings);
   each_texture<textures, corrected>(b, batch, [&](const Rays& rays, const Meets& meets, float number) HWY_ATTR {
-    add_slice_of<pre, linear_opacity, interpolate>(b, rays, meets, number, batch);
+    if constexpr (pre) {
+      add_classified<linear_opacity>(b, AnyPage{b}, rays, meets, number, interpolate, batch);
+    } else {
+      Lane values;
+      fetch_slice_of<interpolate>(b, rays, meets, number, batch.count, values);
+      add_values<linear_opacity>(b, rays, meets, number, values, batch);
+    }
   });
 }
 

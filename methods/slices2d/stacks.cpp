@@ -146,7 +146,7 @@ int best_stack(const Volume& volume, const ViewRays& rays) {
 }
 
 SliceStacks::SliceStacks(const Scene& scene, const StackSettings& settings, Device& device)
-    : device_(device), table_size_(settings.volume.table_size) {
+    : device_(device), table_size_(settings.volume.table_size), slots_(settings.slots) {
   // The destructor does not run when a constructor throws: a refused texture must not leak the ones before it.
   try {
     const glm::ivec3 size = scene.volume->size;
@@ -164,6 +164,7 @@ SliceStacks::SliceStacks(const Scene& scene, const StackSettings& settings, Devi
       value_scale_ = gradients.value_scale;
       vector_scale_ = gradients.scale;
       vector_offset_ = gradients.offset;
+      normals_ = settings.gradient->normals;
       if (settings.data) add_data(scene, settings.volume);
       add_texture("gradients", size, gradients.format, gradients.texels, true);
     } else {
@@ -232,15 +233,18 @@ std::vector<BindingDecl> SliceStacks::declarations(int textures) {
 std::vector<Binding> SliceStacks::bindings(int axis, int page, const Binding& uniforms) const {
   std::vector<Binding> slots = {uniforms,
                                 bind_sampled(2, transfer_, {Filter::Nearest, Wrap::Clamp})};  // read by texelFetch
-  uint32_t slot = 4;
-  for (const Texture texture : stacks_[static_cast<size_t>(axis)].pages[static_cast<size_t>(page)])
-    slots.push_back(bind_sampled(slot++, texture, {Filter::Linear, Wrap::Clamp}));
+  const std::vector<Texture>& textures = stacks_[static_cast<size_t>(axis)].pages[static_cast<size_t>(page)];
+  const size_t count = std::max(textures.size(), static_cast<size_t>(slots_));
+  for (size_t i = 0; i < count; ++i) {
+    const Texture texture = textures[std::min(i, textures.size() - 1)];
+    slots.push_back(bind_sampled(static_cast<uint32_t>(4 + i), texture, {Filter::Linear, Wrap::Clamp}));
+  }
   return slots;
 }
 
 void SliceStacks::fill(VolumeUniforms& uniforms) const {
   uniforms.value = {value_origin_, value_scale_, static_cast<float>(table_size_ - 1), 0};
-  uniforms.texel = {vector_scale_, vector_offset_, 0, 0};
+  uniforms.texel = {vector_scale_, vector_offset_, normals_ ? 1.F : 0.F, 0};
 }
 
 std::optional<std::string> stacks_unsupported(const Scene& scene, const VolumeSettings& settings,

@@ -63,6 +63,7 @@ struct StackSettings {
   bool data = true;       // false: no texture of the data
   // Gradients, with the axes of the stack's frame.
   std::optional<GradientSettings> gradient = std::nullopt;
+  int slots = 1;  // textures that the program declares; where there are fewer, the last one is bound again
 };
 
 // The three stacks and the transfer table on a Device. Owns them; dies before the Device.
@@ -80,8 +81,8 @@ class SliceStacks {
   // data (where there are any), then gradients.
   static std::vector<BindingDecl> declarations(int textures = 1);
   std::vector<Binding> bindings(int axis, int page, const Binding& uniforms) const;
-  // Sets uniforms.value and uniforms.texel: a gradient is texel * x + y (stacks have no other use for it).
-  // Call it behind turned().
+  // Sets uniforms.value and uniforms.texel: a gradient is texel * x + y, z: 1 where it is a normal (stacks have no
+  // other use for it). Call it behind turned().
   void fill(VolumeUniforms& uniforms) const;
   size_t texture_bytes() const { return texture_bytes_; }
 
@@ -101,7 +102,9 @@ class SliceStacks {
   Texture transfer_;
   float value_origin_ = 0, value_scale_ = 1;
   float vector_scale_ = 1, vector_offset_ = 0;
+  bool normals_ = false;
   int table_size_ = 0;
+  int slots_ = 1;
   size_t texture_bytes_ = 0;
 };
 

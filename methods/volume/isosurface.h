@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "backends/device.h"
-#include "methods/parameters.h"
+#include "methods/volume/gradient_parameters.h"
 #include "methods/volume/volume_uniforms.h"
 
 namespace volumark {
@@ -46,13 +46,7 @@ inline const Choice kRefine{"refine",
                             "none",
                             Ideal<const char*>{"linear", "position of the surface"}};
 
-inline const Choice kNormals{
-    "normals",
-    "normalised: of the interpolated gradient, at the pixel; interpolated: those of the voxels, "
-    "as the boards of 2000 had it, which are shorter between voxels that differ",
-    {"normalised", "interpolated"},
-    "normalised",
-    Ideal<const char*>{"normalised", "normals"}};
+using gradient_parameters::kNormals;
 
 inline const Choice kGradientFormat{"gradient_format",
                                     "texels that hold gradient (or normal) and value together",
