@@ -37,22 +37,25 @@ void fill_effects(const Scene& scene, const LocalFrame& frame, VolumeUniforms& u
     uniforms.clip_planes[i] = float4(normal, planes[i].distance + 0.5 * (normal.x + normal.y + normal.z));
   }
   uniforms.counts[1] = static_cast<float>(planes.size());
-  if (!scene.effects.lighting) return;
-  const Lighting& lighting = *scene.effects.lighting;
+  if (scene.effects.lighting) fill_lights(*scene.effects.lighting, frame.middle, frame.to_local, uniforms);
+}
+
+}  // namespace
+
+void fill_lights(const Lighting& lighting, const glm::dvec3& middle, const glm::dmat3& to_local,
+                 VolumeUniforms& uniforms) {
   uniforms.lighting = float4({lighting.ambient, lighting.diffuse, lighting.specular}, lighting.shininess);
   for (size_t i = 0; i < lighting.lights.size() && i < kMaxLights; ++i) {
     const Light& light = lighting.lights[i];
     const bool point = light.kind == Light::Kind::Point;
     uniforms.lights[i].vector =
-        point ? float4(frame.point(light.vector), 1) : float4(glm::normalize(frame.vector(light.vector)), 0);
+        point ? float4(to_local * (light.vector - middle), 1) : float4(glm::normalize(to_local * light.vector), 0);
     uniforms.lights[i].colour = float4(light.colour);
   }
   uniforms.counts[0] = static_cast<float>(lighting.lights.size());
   uniforms.counts[2] = lighting.specular > 0 ? 1.F : 0.F;
   uniforms.counts[3] = lighting.two_sided ? 1.F : 0.F;
 }
-
-}  // namespace
 
 double smallest_spacing(const Volume& volume) {
   return std::min({volume.spacing.x, volume.spacing.y, volume.spacing.z});

@@ -76,6 +76,10 @@ std::vector<LocalPlane> local_clip_planes(const Scene& scene);
 
 double smallest_spacing(const Volume& volume);
 
+// Fills lighting, lights and counts.xzw, in a frame with its origin at `middle` (world) and axes `to_local`.
+void fill_lights(const Lighting& lighting, const glm::dvec3& middle, const glm::dmat3& to_local,
+                 VolumeUniforms& uniforms);
+
 // Fills everything but `value` (VolumeResources does), depth.yzw and `own` (the method does).
 VolumeUniforms volume_uniforms(const Scene& scene, const View& view, int width, int height);
 
