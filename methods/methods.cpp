@@ -5,6 +5,7 @@
 
 #include "methods/method.h"
 #include "methods/raycast/raycast.h"
+#include "methods/raycast/raycast_iso.h"
 #include "methods/shell_slices/shell_slices.h"
 #include "methods/slices2d/slice_mpr.h"
 #include "methods/slices2d/slices2d.h"
@@ -18,10 +19,10 @@ namespace volumark {
 
 // The one list of methods: add yours here.
 std::span<const Method* const> method_list() {
-  static const std::array<const Method*, 11> list = {&texture3d_slices(), &texture3d_slices_iso(), &raycast(),
-                                                     &slices2d(),         &slices2d_viewport(),    &slice_mpr(),
-                                                     &slices2d_iso(),     &slices2d_shaded(),      &shell_software(),
-                                                     &shell_hybrid(),     &shell_hardware()};
+  static const std::array<const Method*, 12> list = {
+      &texture3d_slices(), &texture3d_slices_iso(), &raycast(),      &raycast_iso(),
+      &slices2d(),         &slices2d_viewport(),    &slice_mpr(),    &slices2d_iso(),
+      &slices2d_shaded(),  &shell_software(),       &shell_hybrid(), &shell_hardware()};
   return list;
 }
 

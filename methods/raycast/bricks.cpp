@@ -205,4 +205,14 @@ BrickDistances brick_distances(const BrickRanges& ranges, const OpaqueValues& op
   return brick_distances(ranges.count, occupied);
 }
 
+void put_bricks(const BrickRanges& ranges, const Volume& volume, VolumeUniforms& uniforms) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<size_t>(axis);
+    uniforms.own[0][a] = static_cast<float>(ranges.count[axis]);
+    uniforms.own[1][a] =
+        ranges.edge > 0 ? static_cast<float>(volume.size[axis] - 1) / static_cast<float>(ranges.edge) : 0;
+  }
+  uniforms.own[1][3] = ranges.edge > 0 ? 1 / static_cast<float>(ranges.edge) : 0;
+}
+
 }  // namespace volumark

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "methods/volume/volume_parameters.h"
+#include "methods/volume/volume_uniforms.h"
 #include "scenes/scene.h"
 
 namespace volumark {
@@ -57,5 +58,8 @@ struct BrickDistances {
 BrickDistances brick_distances(const glm::ivec3& count, const std::vector<uint8_t>& occupied);
 // `widen` >= 0 (data units) covers the rounding of the volume's texture format.
 BrickDistances brick_distances(const BrickRanges& ranges, const OpaqueValues& opaque, double widen);
+
+// What walk.glsl wants of them: vm.own[0].xyz and vm.own[1].
+void put_bricks(const BrickRanges& ranges, const Volume& volume, VolumeUniforms& uniforms);
 
 }  // namespace volumark

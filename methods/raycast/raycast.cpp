@@ -9,6 +9,7 @@
 
 #include "methods/raycast/bricks.h"
 #include "methods/raycast/fixed_raycast.h"
+#include "methods/raycast/ray_parameters.h"
 #include "methods/raycast/raycast_cpu.h"
 #include "methods/volume/volume_parameters.h"
 #include "methods/volume/volume_resources.h"
@@ -19,19 +20,15 @@
 namespace volumark {
 namespace {
 
+using ray_parameters::kBrickSize;
+using ray_parameters::kSkipEmpty;
+using ray_parameters::kStep;
+using ray_parameters::skips;
 using volume_parameters::kPreintegratedSize;
 using volume_parameters::kTableSize;
 using volume_parameters::kTargetFormat;
 using volume_parameters::kVolumeFormat;
 
-const Number kStep{{"step",
-                    "voxels",
-                    "length of a segment, in smallest spacings; the last segment of a ray ends where the ray leaves",
-                    0.5,
-                    1.0 / 64,
-                    64,
-                    {4, 2, 1, 0.5, 0.25, 0.125},
-                    Ideal<double>{0.125, "step"}}};
 const Choice kRayClassification{
     "classification",
     "post: transfer function at the middle of each segment; preintegrated: of the linear run of values between its two "
@@ -48,15 +45,6 @@ const Number kEarlyTermination{{"early_termination",
                                 0.5,
                                 {},
                                 Ideal<double>{0, "early termination"}}};
-const Choice kSkipEmpty{"skip_empty",
-                        "bricks: jump over bricks of voxels whose range of values is transparent; the picture is the "
-                        "same",
-                        {"none", "bricks"},
-                        "bricks"};
-const Integer kBrickSize{{"brick_size", "cells", "edge of a brick", 4, 2, 64}};
-
-bool skips(const Values& values) { return kSkipEmpty(values) == "bricks"; }
-
 Classification classification(const Values& values) {
   return kRayClassification(values) == "preintegrated" ? Classification::Preintegrated : Classification::Post;
 }
@@ -69,29 +57,6 @@ VolumeSettings settings_of(const Scene& scene, const Values& values) {
   settings.preintegrated_size = static_cast<int>(kPreintegratedSize(values));
   settings.segment = scene.volume ? kStep(values) * smallest_spacing(*scene.volume) : 0;
   return settings;
-}
-
-// Half the spacing of the values that the volume texture can hold, where that is coarser than the data.
-double texture_rounding(const Volume& volume, const std::string& format) {
-  const double range = volume.max_value - volume.min_value;
-  if (format == "r8") return range / 255 / 2;
-  if (format == "r16") return range / 65535 / 2;
-  if (format == "r16f") return range / 1024;
-  return 0;
-}
-
-// Mesa's software drivers end the loops of a program, all together, after 65535 turns, and say nothing: what lies
-// behind would be missing.
-std::optional<std::string> too_many_segments(const Scene& scene, const Values& values, const BackendInfo& backend) {
-  if (!scene.volume || backend.renderer.find("llvmpipe") == std::string::npos) return std::nullopt;
-  constexpr double kTurns = 65535 - 64;
-  const double each = skips(values) ? 2 : 1;  // looking up a brick is a turn of its own
-  const double voxels = glm::length(scene.volume->extent()) / smallest_spacing(*scene.volume);
-  if (voxels / kStep(values) * each <= kTurns) return std::nullopt;
-  return fmt::format(
-      "rays of up to {:.0f} segments: {} ends a program's loops after 65535 turns; a step of {:.3g} voxels is the "
-      "least",
-      voxels / kStep(values), backend.renderer, voxels * each / kTurns);
 }
 
 MethodInfo make_info() {
@@ -202,13 +167,7 @@ class PreparedRaycast final : public PreparedMethod {
     VolumeUniforms uniforms = volume_uniforms(scene_, view, width, height);
     resources_.fill(uniforms);
     uniforms.depth[3] = static_cast<float>(step_);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<size_t>(axis);
-      uniforms.own[0][a] = static_cast<float>(bricks_.count[axis]);
-      uniforms.own[1][a] =
-          bricks_.edge > 0 ? static_cast<float>(scene_.volume->size[axis] - 1) / static_cast<float>(bricks_.edge) : 0;
-    }
-    uniforms.own[1][3] = bricks_.edge > 0 ? 1 / static_cast<float>(bricks_.edge) : 0;
+    put_bricks(bricks_, *scene_.volume, uniforms);
     uniforms.own[0][3] = static_cast<float>(early_termination_);
     uniforms.own[2] = {opaque_.lo, opaque_.hi, 0, 0};
     return uniforms;
