@@ -136,25 +136,28 @@ void write_html_report(const Results& results, const std::filesystem::path& resu
   using namespace html;
   const Model model(results);
   const PictureBook book = read_pictures(model, results_dir);
-  const std::string page = fill(page_template(), {{"title", escape(page_title(results))},
-                                                  {"style", style_text()},
-                                                  {"script", script_text()},
-                                                  {"run", run_line(model) + note_lines(notes)},
-                                                  {"answers", answers(model)},
-                                                  {"tiles", summary_tiles(model)},
-                                                  {"stability", stability_section(model, book)},
-                                                  {"effects", effects_section(model, book)},
-                                                  {"scenes", scene_sections(model, book)},
-                                                  {"picture_note", picture_note(book)},
-                                                  {"problems", problems_section(model)},
-                                                  {"cells", cells_table(model)},
-                                                  {"parity", parity_table(model)},
-                                                  {"claims", claims_table(model)},
-                                                  {"self_test", self_test_table(model)},
-                                                  {"environment", environment_section(model)},
-                                                  {"results_json", results_json(results)},
-                                                  {"model_json", model_json(model, book)},
-                                                  {"pictures", picture_scripts(book)}});
+  const std::string papers = claims_table(model, book);
+  const std::string page =
+      fill(page_template(), {{"title", escape(page_title(results))},
+                             {"style", style_text()},
+                             {"script", script_text()},
+                             {"run", run_line(model) + note_lines(notes)},
+                             {"answers", answers(model)},
+                             {"tiles", summary_tiles(model)},
+                             {"stability", stability_section(model, book)},
+                             {"effects", effects_section(model, book)},
+                             {"scenes", scene_sections(model, book)},
+                             {"picture_note", picture_note(book)},
+                             {"problems", problems_section(model)},
+                             {"cells", cells_table(model)},
+                             {"parity", parity_table(model)},
+                             {"claims", papers},
+                             {"papers_link", papers.empty() ? "" : "<a href=\"#claims\">Papers</a>"},
+                             {"self_test", self_test_table(model)},
+                             {"environment", environment_section(model)},
+                             {"results_json", results_json(results)},
+                             {"model_json", model_json(model, book)},
+                             {"pictures", picture_scripts(book)}});
   write_file_atomically(out, page);
 }
 

@@ -77,19 +77,13 @@ std::string thumbs(const Model& model, const Block& block, const PictureBook& bo
       if (best == nullptr || rmse(entry) < rmse(*best)) best = &entry;
     }
     if (best == nullptr) continue;
-    const auto entry = best - book.entries.data();
+    const auto entry = static_cast<size_t>(best - book.entries.data());
     if (!reference_shown && best->reference >= 0) {
-      out += fmt::format(
-          "<li><button type=\"button\" class=\"thumb\" data-entry=\"{}\" data-picture=\"{}\"><span class=\"frame\">"
-          "</span><b>reference</b><span>double precision</span><span class=\"dim\">bound {}</span></button></li>",
-          entry, best->reference, bound_text(model, *best));
+      out += thumb(entry, best->reference, "reference", "double precision", "bound " + bound_text(model, *best));
       reference_shown = true;
     }
-    out += fmt::format(
-        "<li><button type=\"button\" class=\"thumb\" data-entry=\"{}\" data-picture=\"{}\"><span class=\"frame\">"
-        "</span><b>{}</b><span>{}</span><span class=\"dim\">{}</span></button></li>",
-        entry, best->rendered, escape(row.method), escape(row.backend),
-        escape(model.settings[best->cell]) + picture_badges(model.results.results[best->cell]));
+    out += thumb(entry, best->rendered, escape(row.method), escape(row.backend),
+                 escape(model.settings[best->cell]) + picture_badges(model.results.results[best->cell]));
   }
   if (out.empty()) return "<p class=\"note\">No picture of this scene is in the report.</p>";
   return "<ul class=\"thumbs\" aria-label=\"Pictures, the most accurate setting of each; opens the comparison\">" +
@@ -121,6 +115,14 @@ constexpr const char* kFrontChoice =
     "backend</label>";
 
 }  // namespace
+
+std::string thumb(size_t entry, int picture, const std::string& title, const std::string& line,
+                  const std::string& dim) {
+  return fmt::format(
+      "<li><button type=\"button\" class=\"thumb\" data-entry=\"{}\" data-picture=\"{}\"><span class=\"frame\">"
+      "</span><b>{}</b><span>{}</span><span class=\"dim\">{}</span></button></li>",
+      entry, picture, title, line, dim);
+}
 
 std::string picture_badges(const Result& result) {
   std::string out;

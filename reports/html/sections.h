@@ -26,7 +26,7 @@ std::string effects_section(const Model& model, const PictureBook& book);
 std::string problems_section(const Model& model);  // outcomes that are not ok
 std::string cells_table(const Model& model);
 std::string parity_table(const Model& model);
-std::string claims_table(const Model& model);
+std::string claims_table(const Model& model, const PictureBook& book);
 std::string self_test_table(const Model& model);
 std::string environment_section(const Model& model);
 
@@ -34,6 +34,8 @@ std::string environment_section(const Model& model);
 // "WHAT in these results", with the command that gets it: an experiment's name, or "verify".
 std::string missing_text(const std::string& what, const std::string& command);
 std::string software_tag(const Model& model, const std::string& backend);
+// A small picture that opens the comparison: `entry` and `picture` are indices into the book; the texts are HTML.
+std::string thumb(size_t entry, int picture, const std::string& title, const std::string& line, const std::string& dim);
 std::string command_box(const std::string& command);  // with a button that copies it
 // Of a picture that lacks effects, or shows nothing; empty for any other.
 std::string picture_badges(const Result& result);

@@ -21,7 +21,7 @@ try {
     await browser.until('the page is ready', () => browser.run('return document.documentElement.dataset.ready'));
     for (const theme of ['light', 'dark']) {
       await browser.run('document.documentElement.dataset.theme = arguments[0]', theme);
-      for (const anchor of ['', 'scenes', 'images', 'problems', 'cells', 'checks', 'environment'])
+      for (const anchor of ['', 'scenes', 'images', 'problems', 'claims', 'cells', 'checks', 'environment'])
         if (theme === 'light' || anchor === '' || anchor === 'scenes' || anchor === 'images')
           await shot(`${size}-${theme}-${anchor || 'first'}`, anchor);
     }

@@ -106,6 +106,7 @@ TEST(ParseClaims, MistakesAreNamedWithTheirPlace) {
 TEST(ParseClaims, WhatAMethodDoesNotDrawIsNoCell) {
   Json json = valid();
   json["scenes"] = {"slab", "engine_iso"};
+  json["methods"].push_back({{"method", "texture3d_slices_iso"}});
   EXPECT_EQ(parse(json).claims[0].cells, 3U);
   json["claims"][0]["numerator"]["scene"] = "engine_iso";
   EXPECT_NE(refusal(json).find("/claims/0/numerator: chooses no cell"), std::string::npos) << refusal(json);
