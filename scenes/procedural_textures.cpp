@@ -1,13 +1,10 @@
 #include "scenes/procedural_textures.h"
 
 #include <array>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
-#include "scenes/noise.h"
 #include "scenes/texture_painters.h"
 
 namespace volumark {
@@ -18,7 +15,8 @@ struct Painter {
   void (*paint)(TextureCanvas& canvas, uint32_t seed);
 };
 constexpr std::array kPainters{
-    Painter{"egg_torus", paint_egg_torus},
+    Painter{"egg_torus", paint_egg_torus}, Painter{"outdoor", paint_outdoor}, Painter{"chain", paint_chain},
+    Painter{"car_park", paint_car_park},   Painter{"volcano", paint_volcano}, Painter{"fur", paint_fur},
 };
 
 constexpr auto kKinds = [] {

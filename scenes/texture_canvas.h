@@ -1,6 +1,6 @@
 // A shell's texture while it is painted: shapes are stamped one over another, each into the texels of its own box, so
-// that the time grows with what is painted and not with shapes times texels. Positions are (u, v, w) in [0, 1]^3; u and
-// v wrap around, so that copies fit side by side; w is cut off.
+// that the time grows with what is painted and not with shapes times texels. Positions are (u, v, w * height): u and v
+// in [0, 1] wrap around, so that copies fit side by side; what is beyond w = 0 or 1 is cut off.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +17,14 @@ class TextureCanvas {
   explicit TextureCanvas(const glm::ivec3& size)
       : size_(size), texels_(static_cast<size_t>(size.x) * static_cast<size_t>(size.y) * static_cast<size_t>(size.z)) {}
 
+  // A w of 1, in lengths of u and v. Before anything is painted.
+  void set_height(double height) { height_ = height; }
+
   // paint(p) -> (colour, cover), both 0..1, for texel centres p in [lo, hi] (not wrapped: beyond 0..1 where the box
   // is). What was there stays with 1 - cover.
   template <typename Paint>
   void stamp(const glm::dvec3& lo, const glm::dvec3& hi, const Paint& paint) {
-    const glm::dvec3 n(size_);
+    const glm::dvec3 n = glm::dvec3(size_) / glm::dvec3(1, 1, height_);
     const auto from = [&](int axis) { return static_cast<int>(std::ceil(lo[axis] * n[axis] - 0.5)); };
     const auto to = [&](int axis) { return static_cast<int>(std::floor(hi[axis] * n[axis] - 0.5)); };
     const int k_to = std::min(to(2), size_.z - 1), j_to = to(1), i_to = to(0);
@@ -62,6 +65,7 @@ class TextureCanvas {
            wrap(i, size_.x);
   }
   glm::ivec3 size_;
+  double height_ = 1;
   std::vector<glm::dvec4> texels_;  // colour * cover, cover
 };
 
