@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scenes/data/find_data.h"
 #include "scenes/data/orientation.h"
 #include "scenes/scene_plan.h"
 
@@ -136,6 +137,12 @@ FileSpec parse_file(const JsonObject& object) {
   spec.package_path = text("package_path");
   if (spec.package.empty() != spec.package_path.empty()) {
     object.fail("\"package\" and \"package_path\" (where the package installs the file) belong together");
+  }
+  const bool absolute = spec.package_path.starts_with('/');
+  if (!spec.package.empty() && is_npm(spec) == absolute) {
+    object.at("package_path")
+        .fail(absolute ? "expected a path in the npm package's archive, such as package/file"
+                       : "expected the absolute path at which the package installs the file");
   }
   spec.licence = text("licence");
   spec.source = text("source");

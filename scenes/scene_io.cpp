@@ -69,7 +69,8 @@ DataSource describe(const ScenePlan& plan) {
     if (!item.empty() && std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
   };
   for (const FileSpec* spec : files) {
-    add(origins, spec->package.empty() ? "file" : "debian:" + spec->package);
+    const bool debian = !spec->package.empty() && !is_npm(*spec);
+    add(origins, spec->package.empty() ? "file" : (debian ? "debian:" : "") + spec->package);
     add(licences, spec->licence);
     add(ways, how_to_get(*spec));
     if (!spec->sha256.empty()) checksums.push_back(spec->sha256);

@@ -22,8 +22,8 @@ namespace volumark {
 
 struct FileSpec {
   std::string file;          // as written: relative to the scene's folder, or a name to look for
-  std::string package;       // Debian package that has it; may be empty
-  std::string package_path;  // where that package installs it
+  std::string package;       // Debian package that has it, or "npm:NAME@VERSION"; may be empty
+  std::string package_path;  // where the Debian package installs it; its path in the npm package's archive
   std::string sha256;        // lower case; empty: not checked
   std::optional<uint64_t> bytes;
   std::string licence, source;

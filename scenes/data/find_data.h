@@ -17,6 +17,9 @@ std::filesystem::path find_data(const FileSpec& spec, const std::filesystem::pat
 // Checksum of a file; remembered within the process by path, size and time of change.
 std::string file_sha256(const std::filesystem::path& path);
 
+// Whether its package is one of npm's.
+bool is_npm(const FileSpec& spec);
+
 // One line: how to get the file.
 std::string how_to_get(const FileSpec& spec);
 

@@ -81,9 +81,10 @@ TEST(ShippedScenes, AreThere) {
     EXPECT_FALSE(entry.title.empty()) << entry.path;
   }
   for (const char* name :
-       {"brain",        "ch2",         "cloud",         "engine",      "marschner_lobb", "slab",         "sphere",
-        "vessels",      "vessels_iso", "vessels64",     "engine_iso",  "brain_iso",      "cranium",      "cranium_bone",
-        "cranium_skin", "shell_torus", "shell_terrain", "shell_chain", "shell_carpark",  "shell_volcano"}) {
+       {"brain",         "ch2",           "cloud",        "engine",      "marschner_lobb", "slab",
+        "sphere",        "vessels",       "vessels_iso",  "vessels64",   "engine_iso",     "brain_iso",
+        "cranium",       "cranium_bone",  "cranium_skin", "shell_torus", "shell_terrain",  "shell_chain",
+        "shell_carpark", "shell_volcano", "shell_fur"}) {
     EXPECT_THAT(names, testing::Contains(name));
   }
 }
