@@ -46,6 +46,9 @@ class TileRaster {
       if (mask != 0 && early_tests_) {
         mask = test_row(row, mask, triangle.front);
       }
+      if (mask != 0 && early_rejection_ && planes_[0].dx == 0 && planes_[0].dy == 0) {
+        mask = reject_row(row, mask);
+      }
       // Without tests a triangle covers one run a row; tests may break it up.
       while (mask != 0 && (state_->pipeline.colour_write || !early_tests_)) {
         const int start = std::countr_zero(mask);
@@ -101,6 +104,7 @@ class TileRaster {
       state_ = state;
       blend_ = blend_function(state->pipeline.colour_format, state->pipeline.blend);
       early_tests_ = state->tests_depth_stencil && !state->kernels.discards;
+      early_rejection_ = rejects_early(*state);
       needs_z_ = state->kernels.reads_depth || state->tests_depth_stencil;
     }
     queue_.front = triangle.front;
@@ -118,6 +122,27 @@ class TileRaster {
     const TilePlane& z = planes_[0];
     const float value = z.value + z.dx * static_cast<float>(column) + z.dy * static_cast<float>(row);
     return std::clamp(value, 0.0F, 1.0F);
+  }
+
+  // Fragments that may be dropped by their program are tested behind it. One that fails now fails then too, where what
+  // is written meanwhile can only bring the stored depth farther from passing; and nothing happens where it fails. Only
+  // polygons of one depth: on others the two tests may round differently.
+  static bool rejects_early(const DrawState& state) {
+    const Compare compare = state.pipeline.depth_compare;
+    const bool one_way = compare == Compare::Less || compare == Compare::LessEqual || compare == Compare::Greater ||
+                         compare == Compare::GreaterEqual;
+    return state.kernels.discards && state.pipeline.depth_test && !state.pipeline.stencil_test && one_way;
+  }
+  uint32_t reject_row(int row, uint32_t mask) const {
+    const float z = depth_at(0, row);
+    uint32_t passed = 0;
+    for (uint32_t left = mask; left != 0; left &= left - 1) {
+      const int column = std::countr_zero(left);
+      if (compare_passes(state_->pipeline.depth_compare, z, scratch_.depth[row * kTile + column])) {
+        passed |= 1U << column;
+      }
+    }
+    return passed;
   }
 
   // Early depth and stencil: which pixels of the row survive.
@@ -220,7 +245,7 @@ class TileRaster {
   const int origin_x_, origin_y_;
   const DrawState* state_ = nullptr;
   BlendFunction blend_ = nullptr;
-  bool early_tests_ = false, needs_z_ = false;
+  bool early_tests_ = false, early_rejection_ = false, needs_z_ = false;
   TilePlane planes_[kMaxVaryings + 2];
 };
 

@@ -41,9 +41,7 @@ void main() {
   float met;
   if (VM_REFINE == 1) {
     vec3 end = origin + z1 * direction;
-    vec4 back = texel_at(end, z_far <= leave ? far : end.z);
-    met = meet_line(value_of(texel), value_of(back));
-    texel = mix(texel, back, met);
+    met = meet_line(value_of(texel), value_of(texel_at(end, z_far <= leave ? far : end.z)));
   } else {
     met = meet_slice(value_of(texel));
   }
@@ -51,8 +49,10 @@ void main() {
   colour = vec4(surface.colour.rgb, 1.);
 #ifndef VM_WITHOUT_LIGHTING
   if (VM_LIGHTS > 0) {
+    vec3 hit = VM_REFINE == 1 ? origin + mix(z0, z1, met) * direction : begin;
+    if (VM_REFINE == 1) texel = texel_at(hit, hit.z);
     vec3 vector = texel.rgb * surface.vectors.x + surface.vectors.y;
-    colour = shade_surface(VM_GRADIENTS == 1 ? normal_of(vector) : vector, origin + mix(z0, z1, met) * direction);
+    colour = shade_surface(VM_GRADIENTS == 1 ? normal_of(vector) : vector, hit);
   }
 #endif
 }

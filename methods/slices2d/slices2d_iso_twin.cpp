@@ -89,63 +89,102 @@ HWY_INLINE Rgba texel_at(const VolumeUniforms& vm, const Page& page, const Float
   }
 }
 
+// The values alone, of texels that hold them in alpha: most fragments need no more of a texel. Bilinear as the general
+// sampler.
+template <Format format>
+HWY_INLINE Floats alpha_of(const PageBindings& b, Ints texel) {
+  const FloatTag d;
+  const IntTag di;
+  if constexpr (format == Format::RGBA8) {
+    const Ints words = gather_words(b.page.data, hn::ShiftLeft<2>(texel));
+    const Ints alpha = hn::And(hn::ShiftRight<24>(words), hn::Set(di, 255));
+    return hn::Mul(hn::ConvertTo(d, alpha), splat(1.F / 255));
+  } else if constexpr (format == Format::RGBA16F) {
+    // The upper half of the second word of a texel.
+    const hn::Rebind<uint16_t, FloatTag> d16;
+    const Ints words = gather_words(b.page.data + 4, hn::ShiftLeft<3>(texel));
+    const auto upper = hn::ShiftRight<16>(hn::BitCast(hn::RebindToUnsigned<IntTag>(), words));
+    return hn::PromoteTo(d, hn::BitCast(hn::Rebind<hwy::float16_t, FloatTag>(), hn::TruncateTo(d16, upper)));
+  } else {
+    return hn::BitCast(d, gather_words(b.page.data + 12, hn::ShiftLeft<4>(texel)));
+  }
+}
+template <Format format>
+struct AlphaPage {
+  const PageBindings& b;
+  HWY_INLINE Rgba operator()(Floats stored, const Place& at) const {
+    const PageCell cell = page_cell(b, stored, at);
+    const IntTag di;
+    const auto row_at = [&](ptrdiff_t texels) HWY_ATTR {
+      const Ints first = hn::Add(cell.offset, hn::Set(di, static_cast<int32_t>(texels)));
+      return lerp(alpha_of<format>(b, first), alpha_of<format>(b, hn::Add(first, hn::Set(di, 1))), cell.fx);
+    };
+    const Floats value = lerp(row_at(0), row_at(b.page.row_stride), cell.fy);
+    return {value, value, value, value};
+  }
+};
+
 enum Gradients { kValues, kStored, kNormals };  // VM_GRADIENTS
 
-// Discards the fragments that do not meet the surface; moves `begin` to where the others do. `vectors`: what is stored
-// there.
-template <Gradients gradients, bool refine, bool interpolate, class Page>
+// Discards the fragments that do not meet the surface; moves `begin` and `near` to where the others do. `page` returns
+// values in all channels.
+template <bool refine, bool interpolate, class Page>
 HWY_NOINLINE void meet(const PageBindings& b, const Page& page, const SurfaceUniforms& surface, Stretches& at,
-                       Positions& vectors, FragmentBatch& batch) {
-  const Floats scale = splat(surface.vectors[0]), offset = splat(surface.vectors[1]);
-  const auto value_of = [&](const Rgba& texel)
-                            HWY_ATTR { return normalised_value(b.vm, gradients == kValues ? texel.r : texel.a); };
+                       FragmentBatch& batch) {
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
     const Floats3 begin = at.begin.get(i);
-    Rgba texel = texel_at<interpolate>(b.vm, page, begin, load(at.near + i));
+    const Floats value = normalised_value(b.vm, texel_at<interpolate>(b.vm, page, begin, load(at.near + i)).r);
     Floats met;
     if constexpr (refine) {
       const Floats3 end = at.end.get(i);
-      const Rgba back = texel_at<interpolate>(b.vm, page, end, load(at.far + i));
-      met = meet_line(surface, value_of(texel), value_of(back));
-      texel = mix(texel, back, met);
-      at.begin.put(i, along(begin, met, end - begin));
+      const Floats behind = normalised_value(b.vm, texel_at<interpolate>(b.vm, page, end, load(at.far + i)).r);
+      met = meet_line(surface, value, behind);
+      const Floats3 hit = along(begin, met, end - begin);
+      at.begin.put(i, hit);
+      store(hit.z, at.near + i);
     } else {
-      met = meet_slice(surface, value_of(texel));
+      met = meet_slice(surface, value);
     }
     store_discard(batch, i, hn::Gt(met, splat(1.F)));
-    if constexpr (gradients != kValues) {
-      vectors.put(i, {hn::MulAdd(texel.r, scale, offset), hn::MulAdd(texel.g, scale, offset),
-                      hn::MulAdd(texel.b, scale, offset)});
-    }
   });
 }
 
 template <bool refine, bool interpolate>
-HWY_NOINLINE void meet_values(const PageBindings& b, const SurfaceUniforms& surface, Stretches& at, Positions& vectors,
-                              FragmentBatch& batch) {
+HWY_NOINLINE void meet_any(const PageBindings& b, const SurfaceUniforms& surface, Stretches& at, FragmentBatch& batch) {
   switch (b.page.format) {
     case Format::R8:
-      return meet<kValues, refine, interpolate>(b, ScalarPage<Format::R8>{b}, surface, at, vectors, batch);
+      return meet<refine, interpolate>(b, ScalarPage<Format::R8>{b}, surface, at, batch);
     case Format::R16:
-      return meet<kValues, refine, interpolate>(b, ScalarPage<Format::R16>{b}, surface, at, vectors, batch);
+      return meet<refine, interpolate>(b, ScalarPage<Format::R16>{b}, surface, at, batch);
     case Format::R32F:
-      return meet<kValues, refine, interpolate>(b, ScalarPage<Format::R32F>{b}, surface, at, vectors, batch);
+      return meet<refine, interpolate>(b, ScalarPage<Format::R32F>{b}, surface, at, batch);
+    case Format::RGBA8:
+      return meet<refine, interpolate>(b, AlphaPage<Format::RGBA8>{b}, surface, at, batch);
+    case Format::RGBA16F:
+      return meet<refine, interpolate>(b, AlphaPage<Format::RGBA16F>{b}, surface, at, batch);
+    case Format::RGBA32F:
+      return meet<refine, interpolate>(b, AlphaPage<Format::RGBA32F>{b}, surface, at, batch);
     default:
-      return meet<kValues, refine, interpolate>(b, AnyPage{b}, surface, at, vectors, batch);
+      return meet<refine, interpolate>(b, AnyPage{b}, surface, at, batch);
   }
 }
 
 // ---- Light ----
-template <Gradients gradients>
-HWY_NOINLINE void light(const VolumeUniforms& vm, const SurfaceUniforms& surface, const Positions& at,
-                        const Positions& vectors, FragmentBatch& batch) {
+template <Gradients gradients, bool interpolate>
+HWY_NOINLINE void light(const PageBindings& b, const SurfaceUniforms& surface, const Stretches& at,
+                        FragmentBatch& batch) {
   const SurfaceHits hits(batch);
-  Positions points, normals;
-  hits.gather(at, points);
-  hits.gather(vectors, normals);
+  Positions points;
+  alignas(64) float places[kMaxBatch + kBatchPadding];
+  hits.gather(at.begin, points);
+  hits.gather(at.near, places);
+  const Floats scale = splat(surface.vectors[0]), offset = splat(surface.vectors[1]);
   shade_hits(hits, batch, [&](size_t k) HWY_ATTR {
-    const Floats3 vector = normals.get(k);
-    return shade_surface(vm, surface, gradients == kStored ? normal_of(vm, vector) : vector, points.get(k));
+    const Floats3 hit = points.get(k);
+    const Rgba texel = texel_at<interpolate>(b.vm, AnyPage{b}, hit, load(places + k));
+    const Floats3 vector{hn::MulAdd(texel.r, scale, offset), hn::MulAdd(texel.g, scale, offset),
+                         hn::MulAdd(texel.b, scale, offset)};
+    return shade_surface(b.vm, surface, gradients == kStored ? normal_of(b.vm, vector) : vector, hit);
   });
 }
 
@@ -154,15 +193,13 @@ void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
   const PageBindings b(bindings);
   const SurfaceUniforms& surface = surface_of(bindings);
   Stretches at;
-  Positions vectors;
   locate<clip_planes, refine>(b.vm, batch, at);
+  meet_any<refine, interpolate>(b, surface, at, batch);
   if constexpr (gradients == kValues) {
-    meet_values<refine, interpolate>(b, surface, at, vectors, batch);
     const Rgba colour = with_alpha(splat3(surface.colour), splat(1.F));
     for_lanes(batch.count, [&](size_t i) HWY_ATTR { store_rgba(batch, i, colour); });
   } else {
-    meet<gradients, refine, interpolate>(b, AnyPage{b}, surface, at, vectors, batch);
-    light<gradients>(b.vm, surface, at.begin, vectors, batch);
+    light<gradients, interpolate>(b, surface, at, batch);
   }
 }
 

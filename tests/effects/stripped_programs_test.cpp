@@ -59,8 +59,9 @@ std::vector<Values> settings(const Method& method) {
   return out;
 }
 
-// The programs that a method makes for a scene; nothing where it cannot draw it.
-std::vector<ProgramRecord> programs_of(const Method& method, const Scene& scene, const Values& values) {
+// The programs that a method makes for a scene, showing what it draws; nothing where it cannot draw it.
+std::vector<ProgramRecord> programs_of(const Method& method, const Scene& volume, const Values& values) {
+  const Scene scene = testing::showing(volume, method.info().displays.front());
   Device device = make_device("null");
   if (unsupported_reason(method, scene, values, device.info())) return {};
   const auto prepared = method.prepare(scene, values, device);

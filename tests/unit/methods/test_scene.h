@@ -31,6 +31,14 @@ inline Scene scene_of(Volume volume, double lo = 0, double hi = 255) {
   return scene;
 }
 
+// The scene showing what a method that draws `display` can draw; shells have no volume and are put together elsewhere.
+inline Scene showing(Scene scene, Display display) {
+  scene.display = display;
+  if (display == Display::Isosurface) scene.isosurface.emplace().value = (scene.transfer.lo + scene.transfer.hi) / 2;
+  if (display == Display::SlicePlane) scene.slice_plane.emplace();
+  return scene;
+}
+
 // Unequal spacing and size, turned axes, and a place of its own.
 inline Volume skewed_volume(double scale = 1, const glm::dvec3& moved = glm::dvec3(0)) {
   Volume volume = volume_of<uint8_t>({3, 5, 9}, VoxelType::U8, std::vector<uint8_t>(3 * 5 * 9, 7));
