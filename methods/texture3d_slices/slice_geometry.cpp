@@ -197,8 +197,8 @@ std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, dou
   return hull;
 }
 
-void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& extent, const Slabs& slabs,
-                  bool whole_slabs, bool front_to_back, SliceMesh& mesh, const glm::dvec2& margin) {
+void build_slices(const Body& body, const ViewRays& rays, const Slabs& slabs, bool whole_slabs, bool front_to_back,
+                  SliceMesh& mesh, const glm::dvec2& margin) {
   mesh.vertices.clear();
   mesh.indices.clear();
   mesh.slices = slabs.count;
@@ -212,11 +212,8 @@ void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& exte
     const std::vector<glm::dvec2> hull = hull_of_slab(body, rays, middle - reach, middle + reach, margin);
     if (hull.size() < 3) continue;
     const auto base = static_cast<uint32_t>(mesh.vertices.size());
-    for (const glm::dvec2& p : hull) {
-      const glm::dvec3 box = rays.at(p.x, p.y, middle) / extent + 0.5;
-      mesh.vertices.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(box.x),
-                               static_cast<float>(box.y), static_cast<float>(box.z)});
-    }
+    for (const glm::dvec2& p : hull)
+      mesh.vertices.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(middle)});
     for (uint32_t corner = 2; corner < hull.size(); ++corner) {
       mesh.indices.insert(mesh.indices.end(), {base, base + corner - 1, base + corner});
     }
@@ -224,14 +221,18 @@ void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& exte
   }
 }
 
-void put_window_directions(VolumeUniforms& uniforms, int width, int height) {
+void put_window_rays(VolumeUniforms& uniforms, int width, int height) {
   // NDC x = 2 X / width - 1, y = 1 - 2 Y / height.
-  for (size_t i = 0; i < 3; ++i) {
-    const float x = uniforms.ray_direction_x[i], y = uniforms.ray_direction_y[i];
-    uniforms.own[0][i] = uniforms.ray_direction[i] - x + y;
-    uniforms.own[1][i] = 2 * x / static_cast<float>(width);
-    uniforms.own[2][i] = -2 * y / static_cast<float>(height);
-  }
+  const auto put = [&](Float4& base, Float4& along_x, Float4& along_y) {
+    for (size_t i = 0; i < 3; ++i) {
+      const double x = static_cast<double>(along_x[i]), y = static_cast<double>(along_y[i]);
+      base[i] = static_cast<float>(static_cast<double>(base[i]) - x + y);
+      along_x[i] = static_cast<float>(2 * x / width);
+      along_y[i] = static_cast<float>(-2 * y / height);
+    }
+  };
+  put(uniforms.ray_origin, uniforms.ray_origin_x, uniforms.ray_origin_y);
+  put(uniforms.ray_direction, uniforms.ray_direction_x, uniforms.ray_direction_y);
 }
 
 }  // namespace volumark

@@ -38,8 +38,8 @@ std::vector<glm::dvec2> hull_of_slab(const Body& body, const ViewRays& rays, dou
 
 // One vertex of a slice, as the vertex program reads it.
 struct SliceVertex {
-  float x, y;     // NDC
-  float u, v, w;  // box coordinates on the middle plane
+  float x, y;  // NDC
+  float z;     // depth of the slab's middle plane: fragments meet it with their own rays (put_window_rays)
 };
 
 struct SliceMesh {
@@ -51,11 +51,12 @@ struct SliceMesh {
 // `whole_slabs`: polygons cover every ray that passes the slab; otherwise the section with the middle plane alone.
 // `margin` widens them, for programs that find the ends of each ray themselves. `mesh` is overwritten; its memory is
 // reused.
-void build_slices(const Body& body, const ViewRays& rays, const glm::dvec3& extent, const Slabs& slabs,
-                  bool whole_slabs, bool front_to_back, SliceMesh& mesh, const glm::dvec2& margin = glm::dvec2(0));
+void build_slices(const Body& body, const ViewRays& rays, const Slabs& slabs, bool whole_slabs, bool front_to_back,
+                  SliceMesh& mesh, const glm::dvec2& margin = glm::dvec2(0));
 
-// Sets own[0..2].xyz to the rays' direction (box coordinates per unit of depth) as a function of window coordinates:
-// own[0] + X own[1] + Y own[2].
-void put_window_directions(VolumeUniforms& uniforms, int width, int height);
+// Makes ray_origin() and ray_direction() of the programs functions of window coordinates instead of NDC. Places are not
+// interpolated across the polygons: a triangle of a fan may be a thousandth of a pixel wide, and the gradients of what
+// is interpolated there are rounding noise.
+void put_window_rays(VolumeUniforms& uniforms, int width, int height);
 
 }  // namespace volumark

@@ -62,7 +62,7 @@ class PreparedSlices final : public PreparedMethod {
     PipelineDesc pipeline;
     pipeline.label = "texture3d_slices";
     pipeline.program = program_;
-    pipeline.vertex_layouts = {{sizeof(SliceVertex), false, {{0, 2, 0}, {1, 3, offsetof(SliceVertex, u)}}}};
+    pipeline.vertex_layouts = {{sizeof(SliceVertex), false, {{0, 2, 0}, {1, 1, offsetof(SliceVertex, z)}}}};
     pipeline.blend = front_to_back_ ? Blend::Under : Blend::Over;
     pipeline.colour_format = target_format_of(values);
     pipeline_ = device.create_pipeline(pipeline);
@@ -98,7 +98,7 @@ VolumeUniforms PreparedSlices::uniforms_of(const View& view, const Body& body, i
   uniforms.depth[1] = static_cast<float>(body.z_first);
   uniforms.depth[2] = static_cast<float>(body.z_last);
   uniforms.depth[3] = static_cast<float>(step_);
-  put_window_directions(uniforms, width, height);
+  put_window_rays(uniforms, width, height);
   return uniforms;
 }
 
@@ -111,7 +111,7 @@ void PreparedSlices::render(const View& view, Device& device, Texture target) {
   // Fragments that clip their stretch of the ray may lie outside the body: an eighth of a pixel, so that none is
   // missed.
   const glm::dvec2 margin = clips_ ? glm::dvec2(0.25 / width, 0.25 / height) : glm::dvec2(0);
-  build_slices(body, rays, extent, slabs_of(body, step_), clips_, front_to_back_, mesh_, margin);
+  build_slices(body, rays, slabs_of(body, step_), clips_, front_to_back_, mesh_, margin);
   device.end_zone();
 
   DrawDesc draw;

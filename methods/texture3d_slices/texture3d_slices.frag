@@ -1,12 +1,13 @@
 // One sample of one slice (Cabral 1994; westermann1998 section 2): the colour and opacity of the stretch of the pixel's
 // ray inside the slab around the slice. With VM_CLIP_SLABS the stretch ends where the volume ends.
 VM_SPEC(6, VM_CLIP_SLABS, 1)
-layout(location = 0) in vec3 box;  // on the middle plane of the slab
+layout(location = 0) flat in float plane;  // depth of the middle plane of the slab
 layout(location = 0) out vec4 colour;
 
 void main() {
-  // Box coordinates per unit of depth, affine in window coordinates.
-  vec3 direction = vm.own[0].xyz + gl_FragCoord.x * vm.own[1].xyz + gl_FragCoord.y * vm.own[2].xyz;
+  // The pixel's own ray, in window coordinates: what is interpolated across a thin polygon is noise.
+  vec3 direction = ray_direction(gl_FragCoord.xy);
+  vec3 box = ray_origin(gl_FragCoord.xy) + plane * direction;
   float z0 = -.5 * vm.depth.w, z1 = .5 * vm.depth.w;
   if (VM_CLIP_SLABS == 1) {
     clip_ray(box, direction, z0, z1);

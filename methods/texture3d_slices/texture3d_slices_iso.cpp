@@ -119,7 +119,7 @@ class PreparedIsoSlices final : public PreparedMethod {
     PipelineDesc pipeline;
     pipeline.label = "texture3d_slices_iso";
     pipeline.program = program_;
-    pipeline.vertex_layouts = {{sizeof(SliceVertex), false, {{0, 2, 0}, {1, 3, offsetof(SliceVertex, u)}}},
+    pipeline.vertex_layouts = {{sizeof(SliceVertex), false, {{0, 2, 0}, {1, 1, offsetof(SliceVertex, z)}}},
                                {sizeof(float), false, {{2, 1, 0}}}};
     pipeline.colour_format = target_format_of(values);
     pipeline.has_depth_stencil = pipeline.depth_test = pipeline.depth_write = front_to_back_;
@@ -155,7 +155,7 @@ VolumeUniforms PreparedIsoSlices::uniforms_of(const View& view, int width, int h
   VolumeUniforms uniforms = volume_uniforms(scene_, view, width, height);
   uniforms.value = {volume_.texels().value_origin, volume_.texels().value_scale, 0, 0};
   uniforms.depth[3] = static_cast<float>(step_);
-  put_window_directions(uniforms, width, height);
+  put_window_rays(uniforms, width, height);
   return uniforms;
 }
 
@@ -166,8 +166,7 @@ void PreparedIsoSlices::render(const View& view, Device& device, Texture target)
   const ViewRays rays = view_rays(*scene_.volume, view, width, height);
   const Body body = visible_body(extent, rays, local_clip_planes(scene_));
   // Wider by an eighth of a pixel, so that none is missed: fragments know themselves where the body ends.
-  build_slices(body, rays, extent, slabs_of(body, step_), true, front_to_back_, mesh_,
-               glm::dvec2(0.25 / width, 0.25 / height));
+  build_slices(body, rays, slabs_of(body, step_), true, front_to_back_, mesh_, glm::dvec2(0.25 / width, 0.25 / height));
   const std::vector<float> depths = drawing_depths(mesh_.indices, mesh_.vertices.size(), mesh_.polygons);
   device.end_zone();
 

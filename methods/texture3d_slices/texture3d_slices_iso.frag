@@ -2,15 +2,16 @@
 // pixel's ray between this slice and the next shows the surface, and with what colour.
 VM_SPEC(6, VM_REFINE, 0)     // 1: on the line between both ends of the stretch
 VM_SPEC(7, VM_GRADIENTS, 0)  // 0: texels are values; 1: gradient and value; 2: normal and value
-layout(location = 0) in vec3 box;  // half way between the two slices
+layout(location = 0) flat in float plane;  // depth of what is half way between the two slices
 layout(location = 0) out vec4 colour;
 
 vec4 texel_at(vec3 at) { return textureLod(volume_texture, texture_position(at), 0.); }
 float value_of(vec4 texel) { return ((VM_GRADIENTS == 0 ? texel.r : texel.a) - vm.value.x) * vm.value.y; }
 
 void main() {
-  // Box coordinates per unit of depth, affine in window coordinates.
-  vec3 direction = vm.own[0].xyz + gl_FragCoord.x * vm.own[1].xyz + gl_FragCoord.y * vm.own[2].xyz;
+  // The pixel's own ray, in window coordinates: what is interpolated across a thin polygon is noise.
+  vec3 direction = ray_direction(gl_FragCoord.xy);
+  vec3 box = ray_origin(gl_FragCoord.xy) + plane * direction;
   float enter = -1e30, leave = 1e30;
   clip_ray(box, direction, enter, leave);
   float z0 = max(-.5 * vm.depth.w, enter), z1 = min(.5 * vm.depth.w, leave);

@@ -25,10 +25,9 @@ namespace {
 void vertex(const CpuBindings&, VertexBatch& batch) {
   for (size_t i = 0; i < batch.count; ++i) {
     const float* ndc = attribute_of(batch, 0, i);
-    const float* box = attribute_of(batch, 1, i);
     const float position[4] = {ndc[0], ndc[1], *attribute_of(batch, 2, i), 1.F};
     std::copy_n(position, 4, batch.position + 4 * i);
-    std::copy_n(box, 3, batch.varyings + batch.varying_stride * i);
+    batch.varyings[batch.varying_stride * i] = *attribute_of(batch, 1, i);
   }
 }
 
@@ -36,9 +35,9 @@ template <bool clip_planes, bool refine>
 HWY_NOINLINE void locate(const VolumeUniforms& vm, FragmentBatch& batch, Positions& front, Positions& back) {
   const Floats reach = splat(.5F * vm.depth[3]), slack = splat(kSlack * vm.depth[3]);
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
-    const Floats3 box{load(batch.varyings[0] + i), load(batch.varyings[1] + i), load(batch.varyings[2] + i)};
-    const Floats3 direction =
-        along(along(splat3(vm.own[0]), load(batch.x + i), splat3(vm.own[1])), load(batch.y + i), splat3(vm.own[2]));
+    const Floats x = load(batch.x + i), y = load(batch.y + i);
+    const Floats3 direction = ray_direction(vm, x, y);
+    const Floats3 box = along(ray_origin(vm, x, y), load(batch.varyings[0] + i), direction);
     Floats enter = splat(-1e30F), leave = splat(1e30F);
     clip_ray<clip_planes>(vm, box, direction, enter, leave);
     const auto met = hn::Lt(enter, leave);
@@ -150,7 +149,7 @@ CpuKernels specialise(std::span<const int32_t> constants) {
     kernels.fragment =
         refine ? with_light<false, true>(lit, constants[7]) : with_light<false, false>(lit, constants[7]);
   }
-  kernels.varyings = 3;
+  kernels.varyings = 1;
   kernels.discards = true;
   kernels.reads_front_facing = false;
   return kernels;

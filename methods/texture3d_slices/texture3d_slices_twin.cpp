@@ -28,10 +28,9 @@ struct alignas(64) Segments {
 void vertex(const CpuBindings&, VertexBatch& batch) {
   for (size_t i = 0; i < batch.count; ++i) {
     const float* ndc = attribute_of(batch, 0, i);
-    const float* box = attribute_of(batch, 1, i);
     const float position[4] = {ndc[0], ndc[1], .5F, 1.F};
     std::copy_n(position, 4, batch.position + 4 * i);
-    std::copy_n(box, 3, batch.varyings + batch.varying_stride * i);
+    batch.varyings[batch.varying_stride * i] = *attribute_of(batch, 1, i);
   }
 }
 
@@ -61,9 +60,9 @@ template <Slab slab, bool both_ends>
 HWY_NOINLINE void locate(const VolumeUniforms& vm, const FragmentBatch& batch, Segments& out) {
   const Floats reach = splat(.5F * vm.depth[3]);
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
-    const Floats3 box{load(batch.varyings[0] + i), load(batch.varyings[1] + i), load(batch.varyings[2] + i)};
-    const Floats3 direction =
-        along(along(splat3(vm.own[0]), load(batch.x + i), splat3(vm.own[1])), load(batch.y + i), splat3(vm.own[2]));
+    const Floats x = load(batch.x + i), y = load(batch.y + i);
+    const Floats3 direction = ray_direction(vm, x, y);
+    const Floats3 box = along(ray_origin(vm, x, y), load(batch.varyings[0] + i), direction);
     Floats z0 = hn::Neg(reach), z1 = reach;
     if (slab != kWhole && !hn::AllTrue(FloatTag(), inside<slab>(vm, box, direction, reach))) {
       clip_ray<slab == kInBoxAndPlanes>(vm, box, direction, z0, z1);
@@ -160,7 +159,7 @@ CpuKernels specialise(std::span<const int32_t> constants) {
   kernels.vertex = vertex;
   kernels.fragment = linear_opacity ? with_classification<true>(classification, lit, slab)
                                     : with_classification<false>(classification, lit, slab);
-  kernels.varyings = 3;
+  kernels.varyings = 1;
   return kernels;
 }
 

@@ -48,7 +48,7 @@ double fragment_count(const Scene& scene, double step_in_voxels) {
   const ViewRays rays = view_rays(*scene.volume, scene.views[0], kPixels, kPixels);
   const Body body = visible_body(extent, rays, {});
   SliceMesh mesh;
-  build_slices(body, rays, extent, slabs_of(body, step_in_voxels * scene.volume->spacing.x), true, false, mesh);
+  build_slices(body, rays, slabs_of(body, step_in_voxels * scene.volume->spacing.x), true, false, mesh);
   double area = 0;
   for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const SliceVertex &a = mesh.vertices[mesh.indices[i]], &b = mesh.vertices[mesh.indices[i + 1]],

@@ -164,20 +164,20 @@ TEST(SliceGeometry, VerticesLieOnTheirPlane) {
     const Body body = visible_body(cube.extent(), rays, {});
     const Slabs slabs = slabs_of(body, 0.25);
     SliceMesh near_first, far_first;
-    build_slices(body, rays, cube.extent(), slabs, false, true, near_first);
-    build_slices(body, rays, cube.extent(), slabs, false, false, far_first);
+    build_slices(body, rays, slabs, false, true, near_first);
+    build_slices(body, rays, slabs, false, false, far_first);
     EXPECT_EQ(near_first.polygons, slabs.count);
     EXPECT_EQ(near_first.vertices.size(), far_first.vertices.size());
     double last = -1e9;
     for (size_t i = 0; i < near_first.indices.size(); i += 3) {
       const SliceVertex& v = near_first.vertices[near_first.indices[i]];
-      const double z = glm::dot(glm::dvec3(v.u, v.v, v.w) - 0.5 - rays.origin, rays.forward);
-      const double slice = (z - slabs.first) / slabs.step - 0.5;
+      const glm::dvec3 box = rays.at(v.x, v.y, v.z) / cube.extent() + 0.5;
+      const double slice = (v.z - slabs.first) / slabs.step - 0.5;
       EXPECT_NEAR(slice, std::round(slice), 1e-5);
       EXPECT_GE(slice, last - 1e-5);
       last = slice;
       // Inside of the box: the section, not the slab's outline.
-      for (const float u : {v.u, v.v, v.w}) EXPECT_NEAR(u, 0.5, 0.5 + 1e-6);
+      for (const double u : {box.x, box.y, box.z}) EXPECT_NEAR(u, 0.5, 0.5 + 1e-6);
     }
   }
 }
