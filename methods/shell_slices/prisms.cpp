@@ -102,11 +102,14 @@ int jacobian_sign(const std::array<glm::dvec3, 3>& lower, const std::array<glm::
   return !thick ? 0 : positive ? 1 : negative ? -1 : 0;
 }
 
-ShellPrisms shell_prisms(const Shell& shell) {
+ShellPrisms shell_prisms(const Shell& shell, bool lit) {
   ShellPrisms out;
   const ShellBounds bounds = bounds_of(shell);
   out.middle = 0.5 * (bounds.lo + bounds.hi);
+  out.radius = std::max(0.5 * glm::distance(bounds.lo, bounds.hi), std::numeric_limits<double>::min());
   const Mesh& mesh = *shell.mesh;
+  const std::vector<std::array<glm::dmat3, 6>> gradients =
+      lit ? cotangents(shell) : std::vector<std::array<glm::dmat3, 6>>();
   for (uint32_t i = 0; i < mesh.positions.size(); ++i) {
     const glm::dvec3 lower = mesh.positions[i] - out.middle;
     out.lower.emplace_back(lower);
@@ -126,6 +129,9 @@ ShellPrisms shell_prisms(const Shell& shell) {
     for (size_t i = 0; i < 6; ++i) prism.texture[i] = glm::vec3(shell.texture[triangle][i]);
     bound(out, prism);
     out.prisms.push_back(prism);
+    if (!lit) continue;
+    std::array<glm::mat3, 6>& own = out.cotangents.emplace_back();
+    for (size_t i = 0; i < 6; ++i) own[i] = glm::mat3(out.radius * gradients[triangle][i]);
   }
   return out;
 }
@@ -147,7 +153,13 @@ EdgeTable edge_table(const ShellPrisms& shell, bool share) {
       const auto next = static_cast<uint32_t>(table.edges.size());
       const uint32_t entry =
           share ? known.try_emplace(key_of(index(from), index(to), vertex), next).first->second : next;
-      if (entry == next) table.edges.push_back(vertex);
+      if (entry == next) {
+        table.edges.push_back(vertex);
+        if (!shell.cotangents.empty()) {
+          const std::array<glm::mat3, 6>& at = shell.cotangents[table.of_prism.size() - 1];
+          table.cotangents.push_back({at[static_cast<size_t>(from)], at[static_cast<size_t>(to)]});
+        }
+      }
       own[edge] = entry;
     }
   }

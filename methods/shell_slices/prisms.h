@@ -33,6 +33,9 @@ struct ShellPrisms {
   glm::dvec3 middle{0};                 // world; the origin of what follows
   std::vector<glm::vec3> lower, upper;  // by position of the mesh, relative to `middle`
   std::vector<Prism> prisms;
+  double radius = 1;  // > 0: no corner is farther from the middle
+  // Of each prism at its corners, as scenes/shell.h defines them, times the radius; empty unless asked for.
+  std::vector<std::array<glm::mat3, 6>> cotangents;
   // Left out: without volume, or not to be told from it (degenerate); self-intersecting (the Jacobian changes its
   // sign).
   int64_t degenerate = 0, self_intersecting = 0;
@@ -42,7 +45,8 @@ struct ShellPrisms {
     return index < 3 ? lower[position] : upper[position];
   }
 };
-ShellPrisms shell_prisms(const Shell& shell);
+// `lit`: with cotangents.
+ShellPrisms shell_prisms(const Shell& shell, bool lit = false);
 
 // An edge of a prism with all that a vertex program needs to meet it with a plane: a fake vertex of lensch2002, section
 // 5. Ends in the order of the positions (lower before upper on a normal edge), whoever asks.
@@ -55,6 +59,9 @@ static_assert(sizeof(FakeVertex) == 48);
 struct EdgeTable {
   std::vector<FakeVertex> edges;
   std::vector<std::array<uint32_t, 9>> of_prism;  // in the numbering of section.h
+  // Cotangents of the two ends of each edge, where the shell has them: with the texture coordinates they are shared
+  // too.
+  std::vector<std::array<glm::mat3, 2>> cotangents;
 };
 // `share`: prisms that meet at an edge with the same texture coordinates use one entry; otherwise each has nine.
 EdgeTable edge_table(const ShellPrisms& shell, bool share);

@@ -39,7 +39,7 @@ ShellFrame shell_frame(const ShellPrisms& shell, const View& view, int width, in
   u.depth = float4(frame.forward / out.step, -out.first / out.step);
   u.across = float4(frame.right / half_width, -glm::dot(eye, frame.right) / half_width);
   u.up = float4(frame.up / half_height, -glm::dot(eye, frame.up) / half_height);
-  u.lens = {1, 0, static_cast<float>(planes), 0};
+  u.lens = {1, 0, static_cast<float>(planes), static_cast<float>(1 / shell.radius)};
   if (view.perspective) {
     u.lens[0] = static_cast<float>(out.first - eye_depth);
     u.lens[1] = static_cast<float>(out.step);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cmath>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -21,14 +22,17 @@ struct ShellUniforms {
   Float4 depth{};    // depth = dot(xyz, p) + w
   Float4 across{};   // NDC x = (dot(xyz, p) + w) / lens(k)
   Float4 up{};       // NDC y, likewise
-  Float4 lens{};     // x + y k: the divisor on plane k; z: number of planes; w: unused
+  Float4 lens{};     // x + y k: the divisor on plane k; z: number of planes; w: 1 / the radius of the shell
   Float4 window{};   // NDC = xy * window + (-1, 1); zw: a ray is sqrt(1 + (zw * NDC)^2) long per unit of depth
   Float4 texture{};  // x, y: where w is clamped to; z: world units between planes; w: what texels are multiplied by
+  Float4 texel{};    // between neighbouring texels, in texture coordinates
+  Float4 slope{};    // what differences of texels on both sides are multiplied by to be a gradient
 };
-static_assert(sizeof(ShellUniforms) == 96);
+static_assert(sizeof(ShellUniforms) == 128);
 
 // How many planes, and where: `planes` of them evenly spaced over what the prisms fill in depth behind the near plane,
-// each in the middle of its slab. No planes where nothing is behind the near plane. Fills all but texture.xyw.
+// each in the middle of its slab. No planes where nothing is behind the near plane. Fills all but texture.xyw, texel
+// and slope.
 struct ShellFrame {
   ShellUniforms uniforms;
   int planes = 0;
@@ -58,6 +62,15 @@ inline EdgeWeights edge_weights(float depth_a, float depth_b) {
 }
 inline glm::vec3 on_edge(const EdgeWeights& weights, const glm::vec3& a, const glm::vec3& b) {
   return {weights.a * a.x + weights.b * b.x, weights.a * a.y + weights.b * b.y, weights.a * a.z + weights.b * b.z};
+}
+
+inline glm::mat3 on_edge(const EdgeWeights& weights, const glm::mat3& a, const glm::mat3& b) {
+  return {on_edge(weights, a[0], b[0]), on_edge(weights, a[1], b[1]), on_edge(weights, a[2], b[2])};
+}
+// Where lights are computed: 0 at -radius, 1 at +radius of the shell.
+inline glm::vec3 to_box(const ShellUniforms& u, const glm::vec3& p) {
+  const float scale = .5F * u.lens[3];
+  return {p.x * scale + .5F, p.y * scale + .5F, p.z * scale + .5F};
 }
 
 inline glm::vec2 to_ndc(const ShellUniforms& u, const glm::vec3& p, float plane) {

@@ -1,13 +1,19 @@
 // One of the six vertices of a prism on a plane, which finds its own place (lensch2002, section 6, Figure 5; which of
 // two crossed edges is taken: hardware_edge() in section.h).
-VM_SPEC(1, VM_BRANCHES, 0)  // 0: everything is computed and selected by weights of 0 and 1; 1: if
-VM_SPEC(2, VM_LISTED, 0)    // 1: the pairs of prism and plane are listed; 0: every prism on the plane of the instance
-layout(location = 0) out vec3 out_texture;
+VM_SPEC(6, VM_BRANCHES, 0)  // 0: everything is computed and selected by weights of 0 and 1; 1: if
+VM_SPEC(7, VM_LISTED, 0)    // 1: the pairs of prism and plane are listed; 0: every prism on the plane of the instance
 
 // 36 floats a vertex. Positions: own lower and upper, primary lower and upper, secondary lower and upper; then the
 // texture coordinates of these.
-layout(std430, binding = 2) readonly buffer Corners { float corners[]; };
-layout(std430, binding = 3) readonly buffer Pairs { uvec2 pairs[]; };
+layout(std430, binding = 5) readonly buffer Corners { float corners[]; };
+layout(std430, binding = 6) readonly buffer Pairs { uvec2 pairs[]; };
+
+#ifdef VM_SHELL_LIT
+// 54 floats a vertex: the cotangents of the six corners.
+layout(std430, binding = 7) readonly buffer Cotangents { float cotangents[]; };
+
+vec3 column_at(int i) { return vec3(cotangents[i], cotangents[i + 1], cotangents[i + 2]); }
+#endif
 
 vec3 vector_at(int i) { return vec3(corners[i], corners[i + 1], corners[i + 2]); }
 
@@ -48,6 +54,10 @@ void main() {
   vec3 a, b, texture_a, texture_b;
   float depth_a, depth_b;
   float missed;  // 1: no edge is crossed
+#ifdef VM_SHELL_LIT
+  vec3 u_a, u_b, v_a, v_b, w_a, w_b;
+  int own = 54 * vertex;
+#endif
   if (VM_BRANCHES == 1) {
     bool far[6];
     for (int i = 0; i < 6; ++i) far[i] = depth[i] >= plane;
@@ -60,6 +70,14 @@ void main() {
     depth_b = depth[ends.y];
     texture_a = vector_at(base + 18 + 3 * ends.x);
     texture_b = vector_at(base + 18 + 3 * ends.y);
+#ifdef VM_SHELL_LIT
+    u_a = column_at(own + 9 * ends.x);
+    u_b = column_at(own + 9 * ends.y);
+    v_a = column_at(own + 9 * ends.x + 3);
+    v_b = column_at(own + 9 * ends.y + 3);
+    w_a = column_at(own + 9 * ends.x + 6);
+    w_b = column_at(own + 9 * ends.y + 6);
+#endif
   } else {
     float far[6];
     for (int i = 0; i < 6; ++i) far[i] = step(plane, depth[i]);
@@ -83,18 +101,39 @@ void main() {
     missed = select - lower2 - upper2;
     // Weighted sums of the ends. Weights are 0 and 1 and everything is finite, so that the sums are exact; the ratio
     // is formed after the selection, of one edge alone, and no parallel edge can make it infinite.
-    float from_lower = normal + lower1 + lower2 + missed, from_upper = upper1 + upper2;
+    float from_lower = normal + lower1 + lower2 + missed, from_upper = upper1 + upper2, across = normal + missed;
     a = from_lower * p[0] + from_upper * p[1];
-    b = (normal + missed) * p[1] + lower1 * p[2] + upper1 * p[3] + lower2 * p[4] + upper2 * p[5];
+    b = across * p[1] + lower1 * p[2] + upper1 * p[3] + lower2 * p[4] + upper2 * p[5];
     depth_a = from_lower * depth[0] + from_upper * depth[1];
-    depth_b = (normal + missed) * depth[1] + lower1 * depth[2] + upper1 * depth[3] + lower2 * depth[4] +
+    depth_b = across * depth[1] + lower1 * depth[2] + upper1 * depth[3] + lower2 * depth[4] +
               upper2 * depth[5];
     texture_a = from_lower * vector_at(base + 18) + from_upper * vector_at(base + 21);
-    texture_b = (normal + missed) * vector_at(base + 21) + lower1 * vector_at(base + 24) +
+    texture_b = across * vector_at(base + 21) + lower1 * vector_at(base + 24) +
                 upper1 * vector_at(base + 27) + lower2 * vector_at(base + 30) + upper2 * vector_at(base + 33);
+#ifdef VM_SHELL_LIT
+    u_a = v_a = w_a = u_b = v_b = w_b = vec3(0.);
+    float from[6] = float[6](from_lower, from_upper, 0., 0., 0., 0.);
+    float to[6] = float[6](0., across, lower1, upper1, lower2, upper2);
+    for (int i = 0; i < 6; ++i) {
+      vec3 u = column_at(own + 9 * i), v = column_at(own + 9 * i + 3), w = column_at(own + 9 * i + 6);
+      u_a += from[i] * u;
+      u_b += to[i] * u;
+      v_a += from[i] * v;
+      v_b += to[i] * v;
+      w_a += from[i] * w;
+      w_b += to[i] * w;
+    }
+#endif
   }
   vec2 weights = edge_weights(depth_a - plane, depth_b - plane);
   // "Nowhere": all six vertices of the prism in one point beside the picture.
-  gl_Position = missed > .5 ? vec4(4., 4., .5, 1.) : on_plane(on_edge(weights, a, b), plane);
+  vec3 point = on_edge(weights, a, b);
+  gl_Position = missed > .5 ? vec4(4., 4., .5, 1.) : on_plane(point, plane);
   out_texture = on_edge(weights, texture_a, texture_b);
+#ifdef VM_SHELL_LIT
+  out_box = point * (.5 * shell.lens.w) + .5;
+  out_gradient_u = on_edge(weights, u_a, u_b);
+  out_gradient_v = on_edge(weights, v_a, v_b);
+  out_gradient_w = on_edge(weights, w_a, w_b);
+#endif
 }

@@ -2,6 +2,7 @@
 #include "methods/shell_slices/shell_slicer.h"
 #include "methods/shell_slices/shell_slices.h"
 #include "methods/shell_slices/shell_twin.h"
+#include "programs/shell_hybrid_lit_vert.h"
 #include "programs/shell_hybrid_vert.h"
 
 namespace volumark {
@@ -23,15 +24,18 @@ class PreparedHybrid final : public ShellSlicer {
       : ShellSlicer(scene, values, device,
                     {"shell_hybrid",
                      &programs::shell_hybrid_vert,
+                     &programs::shell_hybrid_lit_vert,
                      &shell_hybrid_twin,
-                     {{2, BindingKind::Storage}},
+                     storage_bindings({5}, scene),
                      {},
                      {{sizeof(EdgeOnPlane), false, {{0, 2, 0}}}}}),
         table_(edge_table(shell_, kShareEdges(values))),
         edge_buffer_(device, "fake vertices"),
+        cotangent_buffer_(device, "cotangents of fake vertices"),
         vertex_buffer_(device, "edges on planes"),
         index_buffer_(device, "section triangles") {
     if (!table_.edges.empty()) edges_ = edge_buffer_.upload(bytes_of(table_.edges));
+    if (!table_.cotangents.empty()) cotangents_ = cotangent_buffer_.upload(bytes_of(table_.cotangents));
   }
 
  private:
@@ -46,8 +50,8 @@ class PreparedHybrid final : public ShellSlicer {
   }
 
   EdgeTable table_;
-  GrowingBuffer edge_buffer_, vertex_buffer_, index_buffer_;
-  Buffer edges_;
+  GrowingBuffer edge_buffer_, cotangent_buffer_, vertex_buffer_, index_buffer_;
+  Buffer edges_, cotangents_;
   std::vector<EdgeOnPlane> vertices_;
   std::vector<uint32_t> indices_;
   std::vector<int> last_plane_;        // of each edge: the last plane that it was met with,
@@ -85,7 +89,8 @@ std::vector<DrawDesc> PreparedHybrid::upload(const ShellFrame&) {
   DrawDesc draw;
   draw.vertex_buffers = {vertex_buffer_.upload(bytes_of(vertices_))};
   draw.index_buffer = index_buffer_.upload(bytes_of(indices_));
-  draw.bindings = {bind_storage(2, edges_)};
+  draw.bindings = {bind_storage(5, edges_)};
+  if (lit_) draw.bindings.push_back(bind_storage(7, cotangents_));
   draw.count = static_cast<uint32_t>(indices_.size());
   return {draw};
 }
@@ -98,14 +103,15 @@ class ShellHybrid final : public Method {
         .title = "Shell prisms cut by planes across the view, classified on the host, cut in the vertex program",
         .paper = "lensch2002",
         .parameters = shell_parameter_list({kShareEdges.info()}),
-        .effects = {},
+        .effects = {"lighting"},
         .displays = {Display::Shell}};
     return info;
   }
   std::optional<std::string> unsupported(const Scene& scene, const Values&, const BackendInfo& backend) const override {
     // Numbers of edges are floats in the program.
     if (scene.shell && scene.shell->prisms() * kPrismEdges >= (size_t{1} << 24)) return "more than 2^24 edges";
-    return shell_unsupported(scene, kPrismEdges * sizeof(FakeVertex), backend);
+    return shell_unsupported(scene, kPrismEdges * (scene.effects.lighting ? 2 * sizeof(glm::mat3) : sizeof(FakeVertex)),
+                             backend);
   }
   std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const override {
     return std::make_unique<PreparedHybrid>(scene, values, device);

@@ -1,15 +1,15 @@
 // What the programs of shells share: the uniform block and the arithmetic of a plane and an edge, operation by operation
 // that of shell_frame.h. `precise`: contracted to fused multiply-adds, the depth of a corner could differ between two
 // places that ask for it, and neighbouring prisms would disagree about a sign.
-VM_SPEC(0, VM_LINEAR_OPACITY, 0)  // 1: alpha = min(tau d, 1) instead of 1 - exp(-tau d)
-
-layout(std140, binding = 0) uniform ShellUniforms {
+layout(std140, binding = 4) uniform ShellUniforms {
   vec4 depth;   // depth = dot(xyz, p) + w; the plane with number k is where depth = k
   vec4 across;  // NDC x = (dot(xyz, p) + w) / lens(k)
   vec4 up;      // NDC y, likewise
-  vec4 lens;    // x + y k: the divisor on plane k; z: number of planes
+  vec4 lens;    // x + y k: the divisor on plane k; z: number of planes; w: 1 / the radius of the shell
   vec4 window;  // NDC = xy * window + (-1, 1); zw: a ray is sqrt(1 + (zw * NDC)^2) long per unit of depth
   vec4 texture; // x, y: where w is clamped to; z: world units between planes; w: what texels are multiplied by
+  vec4 texel;   // between neighbouring texels, in texture coordinates; w: unused
+  vec4 slope;   // what differences of texels on both sides are multiplied by to be a gradient; w: unused
 } shell;
 
 float along_axis(vec4 axis, vec3 p) {

@@ -8,7 +8,9 @@
 #include <glm/gtc/packing.hpp>
 #include <glm/packing.hpp>
 
+#include "methods/volume/volume_resources.h"
 #include "programs/shell_slices_frag.h"
+#include "programs/shell_slices_lit_frag.h"
 
 namespace volumark {
 namespace {
@@ -73,11 +75,14 @@ std::optional<std::string> shell_unsupported(const Scene& scene, size_t bytes_a_
 
 ShellSlicer::ShellSlicer(const Scene& scene, const Values& values, Device& device, const Variant& variant)
     : device_(device),
-      shell_(shell_prisms(*scene.shell)),
+      lit_(scene.effects.lighting.has_value()),
+      shell_(shell_prisms(*scene.shell, lit_)),
       reject_(static_cast<Reject>(shell_parameters::kReject.index(values))),
+      scene_(scene),
       label_(variant.label),
       planes_(static_cast<int>(shell_parameters::kPlanes(values))),
-      uniforms_(device, "shell uniforms") {
+      uniforms_(device, "shell uniforms"),
+      light_(device, "shell lights") {
   try {
     create_texture(*scene.shell->colours, shell_parameters::kTextureFormat.index(values));
     create_pipeline(values, variant);
@@ -99,6 +104,7 @@ void ShellSlicer::create_texture(const ShellTexture& texture, size_t format) {
   texture_size_ = texture.size;
   const float largest = largest_channel(texture);
   if (format > 0 && largest > 0) texture_scale_ = largest;
+  greatest_extinction_ = std::max(texture.greatest_extinction(), 1e-30F);
   const std::vector<std::byte> data = packed(texture, kFormats[format], texture_scale_);
   TextureDesc desc;
   desc.label = "volumetric texture";
@@ -116,10 +122,14 @@ void ShellSlicer::create_pipeline(const Values& values, const Variant& variant) 
   ProgramDesc program;
   program.label = variant.label;
   program.stages = {variant.vertex, &programs::shell_slices_frag};
-  program.bindings = {{0, BindingKind::Uniform}, {1, BindingKind::Sampled, 3}};
+  program.bindings = {{4, BindingKind::Uniform}, {1, BindingKind::Sampled, 3}};
+  if (lit_) {
+    program.stages = {variant.lit_vertex, &programs::shell_slices_lit_frag};
+    program.bindings.push_back({0, BindingKind::Uniform});
+  }
   program.bindings.insert(program.bindings.end(), variant.bindings.begin(), variant.bindings.end());
   const bool linear = shell_parameters::kOpacityCorrection.index(values) == 1;
-  program.constants = {{"VM_LINEAR_OPACITY", linear ? 1 : 0}};
+  program.constants = VolumeResources::constants(scene_, Classification::Post, linear);
   program.constants.insert(program.constants.end(), variant.constants.begin(), variant.constants.end());
   program.cpu = variant.cpu;
   program_ = device_.create_program(program);
@@ -132,6 +142,33 @@ void ShellSlicer::create_pipeline(const Values& values, const Variant& variant) 
   pipeline_ = device_.create_pipeline(pipeline);
 }
 
+// What of the block does not depend on planes.
+void ShellSlicer::fill(ShellFrame& frame) const {
+  const glm::vec3 size(texture_size_);
+  ShellUniforms& u = frame.uniforms;
+  u.texture = {.5F / size.z, 1 - .5F / size.z, static_cast<float>(frame.step), texture_scale_};
+  u.texel = {1 / size.x, 1 / size.y, 1 / size.z, 0};
+  // Gradients in greatest extinctions a radius of the shell: of a size that floats can square at any scale.
+  const float unit = .5F * texture_scale_ / greatest_extinction_;
+  u.slope = {unit * size.x, unit * size.y, unit * size.z, 0};
+}
+
+// What add_lights() and normal_of() of volume_common.glsl read, in world axes around the shell's middle.
+VolumeUniforms ShellSlicer::light(const View& view) const {
+  const Lighting& lighting = *scene_.effects.lighting;
+  const auto float4 = [](const glm::dvec3& v, double w) {
+    return Float4{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z), static_cast<float>(w)};
+  };
+  VolumeUniforms uniforms;
+  fill_lights(lighting, shell_.middle, glm::dmat3(1), uniforms);
+  uniforms.extent = float4(glm::dvec3(2 * shell_.radius), 0);
+  uniforms.eye = float4(view.eye - shell_.middle, view.perspective ? 1 : 0);
+  uniforms.forward = float4(frame_of(view).forward, 0);
+  uniforms.gradient_scale[3] = static_cast<float>(gradient_floor(lighting, *scene_.shell) * shell_.radius /
+                                                  static_cast<double>(greatest_extinction_));
+  return uniforms;
+}
+
 void ShellSlicer::render(const View& view, Device& device, Texture target) {
   const int width = device.desc(target).width, height = device.desc(target).height;
   device.begin_zone("classify");
@@ -141,14 +178,15 @@ void ShellSlicer::render(const View& view, Device& device, Texture target) {
   device.end_zone();
 
   device.begin_zone("upload");
-  frame.uniforms.texture = {.5F / static_cast<float>(texture_size_.z), 1 - .5F / static_cast<float>(texture_size_.z),
-                            static_cast<float>(frame.step), texture_scale_};
+  fill(frame);
   std::vector<DrawDesc> draws = upload(frame);
   if (!draws.empty()) {
     const Buffer block = uniforms_.upload(bytes_of(frame.uniforms));
+    const Buffer lights = lit_ ? light_.upload(bytes_of(light(view))) : Buffer{};
     for (DrawDesc& draw : draws) {
       draw.pipeline = pipeline_;
-      draw.bindings.push_back(bind_uniform(0, block));
+      draw.bindings.push_back(bind_uniform(4, block));
+      if (lit_) draw.bindings.push_back(bind_uniform(0, lights));
       draw.bindings.push_back(bind_sampled(1, texture_, {Filter::Linear, Wrap::Repeat}));
     }
   }
@@ -173,6 +211,13 @@ void ShellSlicer::render(const View& view, Device& device, Texture target) {
                {"draws", static_cast<int64_t>(draws.size())},
                {"texture_bytes", static_cast<int64_t>(texture_bytes_)}};
   count(counters_);
+}
+
+std::vector<BindingDecl> storage_bindings(std::initializer_list<uint32_t> slots, const Scene& scene) {
+  std::vector<BindingDecl> out;
+  for (const uint32_t slot : slots) out.push_back({slot, BindingKind::Storage});
+  if (scene.effects.lighting) out.push_back({7, BindingKind::Storage});
+  return out;
 }
 
 void SectionCounts::put(Counters& counters) const {

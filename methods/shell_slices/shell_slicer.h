@@ -55,10 +55,11 @@ class ShellSlicer : public PreparedMethod {
   Counters counters() const final { return counters_; }
 
  protected:
-  // `stage`: the vertex program; `more`: its bindings and constants after those that all have (0, 1; constant 0).
+  // A vertex program, and what it has besides the bindings (0, 1, 4) and constants (0 to 5) of the fragment program.
   struct Variant {
     const char* label;
     const ShaderText* vertex;
+    const ShaderText* lit_vertex;
     const CpuProgram* cpu;
     std::vector<BindingDecl> bindings;
     std::vector<SpecConstant> constants;
@@ -74,6 +75,7 @@ class ShellSlicer : public PreparedMethod {
   virtual void count(Counters& counters) const = 0;
 
   Device& device_;
+  bool lit_;
   ShellPrisms shell_;
   Reject reject_;
   CornerDepths depths_;  // of the frame, if a variant asks for them
@@ -85,17 +87,24 @@ class ShellSlicer : public PreparedMethod {
   void create_pipeline(const Values& values, const Variant& variant);
   void release();
 
+  void fill(ShellFrame& frame) const;
+  VolumeUniforms light(const View& view) const;
+
+  Scene scene_;  // shares the shell
   std::string label_;
   int planes_;
-  GrowingBuffer uniforms_;
+  GrowingBuffer uniforms_, light_;
   Texture texture_;
   size_t texture_bytes_ = 0;
   glm::ivec3 texture_size_{0};
-  float texture_scale_ = 1;
+  float texture_scale_ = 1, greatest_extinction_ = 1;
   Program program_;
   Pipeline pipeline_;
   Counters counters_;
 };
+
+// The storage buffers of a vertex program: `slots`, and 7 for the cotangents of a lit shell.
+std::vector<BindingDecl> storage_bindings(std::initializer_list<uint32_t> slots, const Scene& scene);
 
 // Polygons of a frame by their number of corners.
 struct SectionCounts {

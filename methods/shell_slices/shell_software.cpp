@@ -2,6 +2,7 @@
 #include "methods/shell_slices/shell_slicer.h"
 #include "methods/shell_slices/shell_slices.h"
 #include "methods/shell_slices/shell_twin.h"
+#include "programs/shell_software_lit_vert.h"
 #include "programs/shell_software_vert.h"
 
 namespace volumark {
@@ -12,17 +13,36 @@ struct SectionVertex {
   glm::vec3 texture;
 };
 
+// What a lit corner has besides.
+struct SectionLight {
+  glm::vec3 box;
+  glm::mat3 cotangent;
+};
+
+std::vector<VertexLayout> layouts(bool lit) {
+  std::vector<VertexLayout> out = {
+      {sizeof(SectionVertex), false, {{0, 2, 0}, {1, 3, offsetof(SectionVertex, texture)}}}};
+  if (!lit) return out;
+  constexpr uint32_t kColumns = offsetof(SectionLight, cotangent), kColumn = sizeof(glm::vec3);
+  out.push_back({sizeof(SectionLight),
+                 false,
+                 {{2, 3, 0}, {3, 3, kColumns}, {4, 3, kColumns + kColumn}, {5, 3, kColumns + 2 * kColumn}}});
+  return out;
+}
+
 class PreparedSoftware final : public ShellSlicer {
  public:
   PreparedSoftware(const Scene& scene, const Values& values, Device& device)
       : ShellSlicer(scene, values, device,
                     {"shell_software",
                      &programs::shell_software_vert,
+                     &programs::shell_software_lit_vert,
                      &shell_software_twin,
                      {},
                      {},
-                     {{sizeof(SectionVertex), false, {{0, 2, 0}, {1, 3, offsetof(SectionVertex, texture)}}}}}),
+                     layouts(scene.effects.lighting.has_value())}),
         vertex_buffer_(device, "section corners"),
+        light_buffer_(device, "light at section corners"),
         index_buffer_(device, "section triangles") {}
 
  private:
@@ -30,18 +50,21 @@ class PreparedSoftware final : public ShellSlicer {
   std::vector<DrawDesc> upload(const ShellFrame&) override;
   void count(Counters& counters) const override {
     counters["vertices"] = static_cast<int64_t>(vertices_.size());
-    counters["vertex_bytes"] = static_cast<int64_t>(vertices_.size() * sizeof(SectionVertex));
+    counters["vertex_bytes"] =
+        static_cast<int64_t>(vertices_.size() * sizeof(SectionVertex) + lights_.size() * sizeof(SectionLight));
     sections_.put(counters);
   }
 
-  GrowingBuffer vertex_buffer_, index_buffer_;
+  GrowingBuffer vertex_buffer_, light_buffer_, index_buffer_;
   std::vector<SectionVertex> vertices_;
+  std::vector<SectionLight> lights_;  // as many, or none
   std::vector<uint32_t> indices_;
   SectionCounts sections_;
 };
 
 void PreparedSoftware::classify(const ShellFrame& frame) {
   vertices_.clear();
+  lights_.clear();
   indices_.clear();
   sections_ = {};
   corner_depths(shell_, frame, depths_);
@@ -58,9 +81,12 @@ void PreparedSoftware::classify(const ShellFrame& frame) {
     for (size_t k = 0; k < section.corners; ++k) {
       const int a = kEdgeEnds[section.edges[k]][0], b = kEdgeEnds[section.edges[k]][1];
       const EdgeWeights weights = edge_weights(depth_of(prism, a) - at, depth_of(prism, b) - at);
-      vertices_.push_back(
-          {to_ndc(frame.uniforms, on_edge(weights, shell_.corner(prism, a), shell_.corner(prism, b)), at),
-           on_edge(weights, prism.texture[static_cast<size_t>(a)], prism.texture[static_cast<size_t>(b)])});
+      const glm::vec3 p = on_edge(weights, shell_.corner(prism, a), shell_.corner(prism, b));
+      const auto from = static_cast<size_t>(a), to = static_cast<size_t>(b);
+      vertices_.push_back({to_ndc(frame.uniforms, p, at), on_edge(weights, prism.texture[from], prism.texture[to])});
+      if (!lit_) continue;
+      const glm::mat3 &ca = shell_.cotangents[number][from], &cb = shell_.cotangents[number][to];
+      lights_.push_back({to_box(frame.uniforms, p), on_edge(weights, ca, cb)});
     }
     add_fan(
         section, [&](uint32_t k) { return base + k; }, indices_);
@@ -72,6 +98,7 @@ std::vector<DrawDesc> PreparedSoftware::upload(const ShellFrame&) {
   if (indices_.empty()) return {};
   DrawDesc draw;
   draw.vertex_buffers = {vertex_buffer_.upload(bytes_of(vertices_))};
+  if (lit_) draw.vertex_buffers.push_back(light_buffer_.upload(bytes_of(lights_)));
   draw.index_buffer = index_buffer_.upload(bytes_of(indices_));
   draw.count = static_cast<uint32_t>(indices_.size());
   return {draw};
@@ -84,7 +111,7 @@ class ShellSoftware final : public Method {
                                  .title = "Shell prisms cut by planes across the view, all intersections on the host",
                                  .paper = "lensch2002",
                                  .parameters = shell_parameter_list({}),
-                                 .effects = {},
+                                 .effects = {"lighting"},
                                  .displays = {Display::Shell}};
     return info;
   }

@@ -20,7 +20,7 @@ namespace HWY_NAMESPACE {
 namespace {
 
 const ShellUniforms& uniforms_of(const CpuBindings& bindings) {
-  return *reinterpret_cast<const ShellUniforms*>(bindings.buffers[0].data);
+  return *reinterpret_cast<const ShellUniforms*>(bindings.buffers[4].data);
 }
 
 // ---- Vertices ----
@@ -30,33 +30,51 @@ void put_vertex(VertexBatch& batch, size_t i, const glm::vec2& ndc, const glm::v
   std::copy_n(&texture.x, 3, batch.varyings + batch.varying_stride * i);
 }
 
+// What light needs: the varyings after the texture coordinates.
+void put_light(VertexBatch& batch, size_t i, const glm::vec3& box, const glm::mat3& cotangent) {
+  float* out = batch.varyings + batch.varying_stride * i + 3;
+  std::copy_n(&box.x, 3, out);
+  std::copy_n(&cotangent[0].x, 9, out + 3);
+}
+
+template <bool lit>
 void software_vertex(const CpuBindings&, VertexBatch& batch) {
   for (size_t i = 0; i < batch.count; ++i) {
     const float* ndc = attribute_of(batch, 0, i);
     const float* texture = attribute_of(batch, 1, i);
     put_vertex(batch, i, {ndc[0], ndc[1]}, {texture[0], texture[1], texture[2]});
+    if constexpr (lit) {
+      float* out = batch.varyings + batch.varying_stride * i + 3;
+      for (int column = 0; column < 4; ++column) std::copy_n(attribute_of(batch, 2 + column, i), 3, out + 3 * column);
+    }
   }
 }
 
+template <bool lit>
 void hybrid_vertex(const CpuBindings& bindings, VertexBatch& batch) {
   const ShellUniforms& u = uniforms_of(bindings);
-  const auto* edges = reinterpret_cast<const FakeVertex*>(bindings.buffers[2].data);
+  const auto* edges = reinterpret_cast<const FakeVertex*>(bindings.buffers[5].data);
   for (size_t i = 0; i < batch.count; ++i) {
     const float* pair = attribute_of(batch, 0, i);
     const FakeVertex& edge = edges[static_cast<size_t>(pair[0])];
     const float plane = pair[1];
     const EdgeWeights weights = edge_weights(plane_depth(u, edge.a) - plane, plane_depth(u, edge.b) - plane);
-    put_vertex(batch, i, to_ndc(u, on_edge(weights, edge.a, edge.b), plane),
-               on_edge(weights, edge.texture_a, edge.texture_b));
+    const glm::vec3 p = on_edge(weights, edge.a, edge.b);
+    put_vertex(batch, i, to_ndc(u, p, plane), on_edge(weights, edge.texture_a, edge.texture_b));
+    if constexpr (lit) {
+      const auto* ends =
+          reinterpret_cast<const glm::mat3*>(bindings.buffers[7].data) + 2 * static_cast<size_t>(pair[0]);
+      put_light(batch, i, to_box(u, p), on_edge(weights, ends[0], ends[1]));
+    }
   }
 }
 
 // The weighted sums of the GLSL choose what the branches choose; one twin serves both.
-template <bool listed>
+template <bool listed, bool lit>
 void hardware_vertex(const CpuBindings& bindings, VertexBatch& batch) {
   const ShellUniforms& u = uniforms_of(bindings);
-  const auto* corners = reinterpret_cast<const glm::vec3*>(bindings.buffers[2].data);
-  const auto* pairs = reinterpret_cast<const uint32_t*>(bindings.buffers[3].data);
+  const auto* corners = reinterpret_cast<const glm::vec3*>(bindings.buffers[5].data);
+  const auto* pairs = reinterpret_cast<const uint32_t*>(bindings.buffers[6].data);
   for (size_t i = 0; i < batch.count; ++i) {
     size_t vertex = batch.vertex_index[i];
     float plane = u.lens[2] - 1.F - static_cast<float>(batch.instance);
@@ -90,10 +108,16 @@ void hardware_vertex(const CpuBindings& bindings, VertexBatch& batch) {
     }
     if (b == 0) {
       put_vertex(batch, i, {4.F, 4.F}, glm::vec3(0));
+      if constexpr (lit) put_light(batch, i, glm::vec3(0), glm::mat3(0));
       continue;
     }
     const EdgeWeights weights = edge_weights(depth[a] - plane, depth[b] - plane);
-    put_vertex(batch, i, to_ndc(u, on_edge(weights, p[a], p[b]), plane), on_edge(weights, p[6 + a], p[6 + b]));
+    const glm::vec3 point = on_edge(weights, p[a], p[b]);
+    put_vertex(batch, i, to_ndc(u, point, plane), on_edge(weights, p[6 + a], p[6 + b]));
+    if constexpr (lit) {
+      const auto* own = reinterpret_cast<const glm::mat3*>(bindings.buffers[7].data) + 6 * vertex;
+      put_light(batch, i, to_box(u, point), on_edge(weights, own[a], own[b]));
+    }
   }
 }
 
@@ -159,45 +183,94 @@ bool fits_texels(const CpuTexture& texture) {
   return texture.format == Format::RGBA32F && texture.slice_stride * texture.depth < (ptrdiff_t{1} << 29);
 }
 
-template <bool linear_opacity, bool texels>
+template <bool texels>
+HWY_INLINE Rgba fetch(const CpuTexture& texture, const Floats3& at) {
+  return texels ? sample_texels(texture, at.x, at.y, at.z) : sample_3d(texture, at.x, at.y, at.z);
+}
+
+HWY_INLINE Floats3 within(const ShellUniforms& u, const Floats3& at) {
+  return {at.x, at.y, hn::Min(hn::Max(at.z, splat(u.texture[0])), splat(u.texture[1]))};
+}
+
+HWY_INLINE Floats3 varying3(const FragmentBatch& batch, int first, size_t i) {
+  return {load(batch.varyings[first] + i), load(batch.varyings[first + 1] + i), load(batch.varyings[first + 2] + i)};
+}
+
+template <bool texels>
+HWY_INLINE Floats3 world_gradient(const ShellUniforms& u, const CpuTexture& texture, const FragmentBatch& batch,
+                                  size_t i, const Floats3& at) {
+  const Floats zero = splat(0.F);
+  const auto difference = [&](const Floats3& e) HWY_ATTR {
+    return hn::Sub(fetch<texels>(texture, within(u, at + e)).a, fetch<texels>(texture, within(u, at - e)).a);
+  };
+  const Floats3 d = Floats3{difference({splat(u.texel[0]), zero, zero}), difference({zero, splat(u.texel[1]), zero}),
+                            difference({zero, zero, splat(u.texel[2])})} *
+                    splat3(u.slope);
+  return along(along(scaled(varying3(batch, 6, i), d.x), d.y, varying3(batch, 9, i)), d.z, varying3(batch, 12, i));
+}
+
+template <bool linear_opacity, bool lit, bool texels>
 void shade(const CpuBindings& bindings, FragmentBatch& batch) {
   const ShellUniforms& u = uniforms_of(bindings);
-  const CpuTexture& colours = bindings.textures[1];
+  const CpuTexture& texture = bindings.textures[1];
   const Floats one = splat(1.F), tiny = splat(1e-30F), scale = splat(u.texture[3]);
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
     const Floats x = hn::Mul(hn::MulAdd(load(batch.x + i), splat(u.window[0]), splat(-1.F)), splat(u.window[2]));
     const Floats y = hn::Mul(hn::MulAdd(load(batch.y + i), splat(u.window[1]), one), splat(u.window[3]));
     const Floats len = hn::Mul(splat(u.texture[2]), hn::Sqrt(hn::Add(one, hn::MulAdd(x, x, hn::Mul(y, y)))));
-    const Floats w = hn::Min(hn::Max(load(batch.varyings[2] + i), splat(u.texture[0])), splat(u.texture[1]));
-    const Floats s = load(batch.varyings[0] + i), t = load(batch.varyings[1] + i);
-    const Rgba stored = texels ? sample_texels(colours, s, t, w) : sample_3d(colours, s, t, w);
+    const Floats3 at = within(u, varying3(batch, 0, i));
+    const Rgba stored = fetch<texels>(texture, at);
     const Floats tau = hn::Mul(stored.a, scale);
     const Floats alpha = opacity_of<linear_opacity>(hn::Mul(tau, len));
+    Floats3 emission = scaled(colour_of(stored), scale);
+    if constexpr (lit) {
+      if (!all_zero(alpha)) {
+        const auto& vm = *reinterpret_cast<const VolumeUniforms*>(bindings.buffers[0].data);
+        const Floats ambient = splat(vm.lighting[0]), zero = splat(0.F);
+        Light3 light{{ambient, ambient, ambient}, {zero, zero, zero}};
+        add_lights(vm, normal_of(vm, world_gradient<texels>(u, texture, batch, i, at)), varying3(batch, 3, i), light);
+        emission = along(emission * light.diffuse, tau, light.specular);
+      }
+    }
     const auto seen = hn::Gt(tau, tiny);
-    const Floats weight = hn::Mul(hn::IfThenElse(seen, hn::Div(alpha, hn::IfThenElse(seen, tau, one)), len), scale);
-    store_rgba(batch, i, {hn::Mul(stored.r, weight), hn::Mul(stored.g, weight), hn::Mul(stored.b, weight), alpha});
+    const Floats weight = hn::IfThenElse(seen, hn::Div(alpha, hn::IfThenElse(seen, tau, one)), len);
+    store_rgba(batch, i, with_alpha(scaled(emission, weight), alpha));
   });
 }
 
-template <bool linear_opacity>
+template <bool linear_opacity, bool lit>
 void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
-  if (fits_texels(bindings.textures[1])) return shade<linear_opacity, true>(bindings, batch);
-  shade<linear_opacity, false>(bindings, batch);
+  if (fits_texels(bindings.textures[1])) return shade<linear_opacity, lit, true>(bindings, batch);
+  shade<linear_opacity, lit, false>(bindings, batch);
 }
 
+// Constants in the order of their ids: volume_common.glsl, then those of shell_hardware.vert.
 CpuKernels kernels_of(std::span<const int32_t> constants, CpuVertexKernel vertex) {
+  const bool linear_opacity = constants[1] != 0;
   CpuKernels kernels;
   kernels.vertex = vertex;
-  kernels.fragment = constants[0] != 0 ? fragment<true> : fragment<false>;
-  kernels.varyings = 3;
   kernels.reads_front_facing = false;
+  if (constants[2] > 0) {
+    kernels.fragment = linear_opacity ? fragment<true, true> : fragment<false, true>;
+    kernels.varyings = 15;
+  } else {
+    kernels.fragment = linear_opacity ? fragment<true, false> : fragment<false, false>;
+    kernels.varyings = 3;
+  }
   return kernels;
 }
 
-CpuKernels specialise_software(std::span<const int32_t> constants) { return kernels_of(constants, software_vertex); }
-CpuKernels specialise_hybrid(std::span<const int32_t> constants) { return kernels_of(constants, hybrid_vertex); }
+CpuKernels specialise_software(std::span<const int32_t> constants) {
+  return kernels_of(constants, constants[2] > 0 ? software_vertex<true> : software_vertex<false>);
+}
+CpuKernels specialise_hybrid(std::span<const int32_t> constants) {
+  return kernels_of(constants, constants[2] > 0 ? hybrid_vertex<true> : hybrid_vertex<false>);
+}
 CpuKernels specialise_hardware(std::span<const int32_t> constants) {
-  return kernels_of(constants, constants[2] != 0 ? hardware_vertex<true> : hardware_vertex<false>);
+  const bool listed = constants[7] != 0;
+  if (constants[2] > 0)
+    return kernels_of(constants, listed ? hardware_vertex<true, true> : hardware_vertex<false, true>);
+  return kernels_of(constants, listed ? hardware_vertex<true, false> : hardware_vertex<false, false>);
 }
 
 }  // namespace

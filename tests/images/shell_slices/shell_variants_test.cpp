@@ -97,6 +97,30 @@ TEST_F(ShellVariants, DrawTheSamePicture) {
   }
 }
 
+TEST_F(ShellVariants, DrawTheSameLitPicture) {
+  Scene scene = scene_of(painted_torus());
+  scene.effects.lighting.emplace();
+  scene.effects.lighting->specular = .4;
+  scene.effects.lighting->lights = {{Light::Kind::Directional, {.6, 0, .8}, {1, .9, .8}},
+                                    {Light::Kind::Point, {1, 2, 2}, {.3, .4, .5}}};
+  Device cpu = make_device("cpu", device_options());
+  const View& view = views().front();
+  const ShellPicture software = draw_shell(device, shell_software(), scene, {{"planes", kPlanes}}, view, kSize, kSize);
+  const ShellPicture hybrid = draw_shell(device, shell_hybrid(), scene, {{"planes", kPlanes}}, view, kSize, kSize);
+  const ShellPicture select = draw_shell(device, shell_hardware(), scene, {{"planes", kPlanes}}, view, kSize, kSize);
+  const ShellPicture branch =
+      draw_shell(device, shell_hardware(), scene, {{"planes", kPlanes}, {"selection", "branch"}}, view, kSize, kSize);
+  const ShellPicture there = draw_shell(cpu, shell_hybrid(), scene, {{"planes", kPlanes}}, view, kSize, kSize);
+  for (const ShellPicture* other : {&hybrid, &select, &branch, &there}) {
+    const ShellDifference d = difference(software.image, other->image, 2e-3);
+    std::printf("largest difference %.2g, %d pixels over 2e-3\n", d.max, d.over);
+    EXPECT_LE(d.over, kSize * kSize / 1000);
+  }
+  scene.effects.lighting.reset();
+  const ShellPicture dark = draw_shell(device, shell_hybrid(), scene, {{"planes", kPlanes}}, view, kSize, kSize);
+  EXPECT_GT(difference(software.image, dark.image, .05).over, 100);
+}
+
 TEST_F(ShellVariants, AgreeWithCpu) {
   const Scene scene = scene_of(painted_torus());
   Device cpu = make_device("cpu", device_options());
