@@ -77,8 +77,10 @@ TEST_F(Strips, AreTheSlicesOfA3dTexture) {
       for (const char* step : {"1", "0.4"}) {
         const Pair pair = both(device, scene, {{"step", step}});
         const Difference d = difference(pair.strips, pair.texture3d);
-        EXPECT_LE(d.max, 2 * diagonal * value_error(*scene.volume) + 100 * 0x1p-23)
-            << view << " " << more << " step " << step << " at " << d.x << ", " << d.y;
+        const double bound = 2 * diagonal * value_error(*scene.volume) + 100 * 0x1p-23;
+        EXPECT_LE(d.max, bound) << view << " " << more << " step " << step << " at " << d.x << ", " << d.y;
+        // Few pixels are of polygons one pixel wide, and roundings have both signs.
+        EXPECT_LE(d.rmse, bound / 500) << view << " " << more << " step " << step;
       }
     }
   }
@@ -87,8 +89,7 @@ TEST_F(Strips, AreTheSlicesOfA3dTexture) {
 TEST_F(Strips, AreTheSlicesOfA3dTextureInEverySetting) {
   const Scene scene = noise_scene({17, 13, 15}, from("[1.1, 0.9, 3]"));
   const double bound = 4 * std::sqrt(3.) * value_error(*scene.volume) + 100 * 0x1p-23;
-  for (const char* name :
-       {"end_slabs=full", "order=front_to_back", "opacity_correction=linear", "classification=pre"}) {
+  for (const char* name : {"order=front_to_back", "opacity_correction=linear", "classification=pre"}) {
     const std::string text = name, parameter = text.substr(0, text.find('=')), value = text.substr(text.find('=') + 1);
     const Pair pair = both(device, scene, {{parameter.c_str(), value.c_str()}});
     const Difference d = difference(pair.strips, pair.texture3d);
@@ -98,6 +99,27 @@ TEST_F(Strips, AreTheSlicesOfA3dTextureInEverySetting) {
   const Image pixels =
       draw(device, scene, "slices2d_viewport", {{"weights", "pixels"}}, scene.views[0], kPicture, kPicture).image;
   EXPECT_LE(difference(corners, pixels).max, bound);
+}
+
+// Plain slices end where rasterizers have it, who move corners to grids of 1/256 of a pixel, and a strip has other
+// corners than the whole slice: a sample may be gained or lost in pixels that an edge passes so near. 25 slices of at
+// most 150 pixels around have 25 * 150 * 2 / 256 such pixels.
+TEST_F(Strips, ArePlainSlicesOfA3dTextureButForTheirEdges) {
+  const Scene scene = noise_scene({17, 13, 15}, from("[1.1, 0.9, 3]"));
+  const double bound = 4 * std::sqrt(3.) * value_error(*scene.volume) + 100 * 0x1p-23;
+  const Pair pair = both(device, scene, {{"end_slabs", "full"}});
+  // Along rays of the picture, at most 22.5 degrees (and the frame's corners) from the view's direction.
+  const double slab = -std::expm1(-1.3 * scene.volume->spacing.x / 0.85);
+  int at_edges = 0;
+  for (size_t i = 0; i < pair.strips.rgba.size(); i += 4) {
+    double apart = 0;
+    for (size_t c = 0; c < 4; ++c)
+      apart = std::max(apart, std::abs(static_cast<double>(pair.strips.rgba[i + c]) -
+                                       static_cast<double>(pair.texture3d.rgba[i + c])));
+    EXPECT_LE(apart, slab);
+    at_edges += apart > bound ? 1 : 0;
+  }
+  EXPECT_LE(at_edges, 29);
 }
 
 TEST_F(Strips, AreTheSlicesOfA3dTextureFromInsideAndUnderClipPlanes) {
