@@ -1,5 +1,6 @@
 #include "methods/slices2d/slices2d.h"
 
+#include "methods/slices2d/fixed_slices2d.h"
 #include "methods/slices2d/slice_parameters.h"
 #include "programs/slices2d_frag.h"
 
@@ -62,15 +63,20 @@ class Slices2d final : public Method {
          parameters::kInterpolation.info(), parameters::kSlantCorrection.info(),
          stack_parameters::kClassification.info(), parameters::kOpacityCorrection.info(),
          parameters::kTargetFormat.info(), parameters::kVolumeFormat.info(), parameters::kTableSize.info()},
-        {"clip_planes"},
+        {"clip_planes", "fixed_point"},
         expected_order};
     return info;
   }
   std::optional<std::string> unsupported(const Scene& scene, const Values& values,
                                          const BackendInfo& backend) const override {
+    if (auto reason = fixed_point_unsupported(scene, stack_classification_of(values))) return reason;
     return stacks_unsupported(scene, stack_settings_of(values), backend);
   }
   std::unique_ptr<PreparedMethod> prepare(const Scene& scene, const Values& values, Device& device) const override {
+    if (scene.effects.fixed_point) {
+      return prepare_fixed_slices2d(scene, slice_settings_of(values), stack_classification_of(values),
+                                    linear_opacity(values), device);
+    }
     return std::make_unique<PreparedSlices2d>(scene, values, device);
   }
   Format target_format(const Values& values) const override { return target_format_of(values); }

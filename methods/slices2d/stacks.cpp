@@ -16,34 +16,6 @@ namespace {
 // Tiles along one side.
 int tiles_in(int extent, int tile) { return std::max(extent / tile, 1); }
 
-// The texels of one page out of those of the volume, with each tile's gutter.
-std::vector<std::byte> page_texels(const StackLayout& layout, const StackPage& page, const glm::ivec3& size,
-                                   std::span<const std::byte> texels, size_t texel) {
-  const glm::ivec2 extent = layout.extent(page), tile = layout.tile();
-  std::vector<std::byte> out(static_cast<size_t>(extent.x) * static_cast<size_t>(extent.y) * texel);
-  const size_t stride[3] = {texel, texel * static_cast<size_t>(size.x),
-                            texel * static_cast<size_t>(size.x) * static_cast<size_t>(size.y)};
-  const size_t across = stride[layout.axis], along_x = stride[(layout.axis + 1) % 3],
-               along_y = stride[(layout.axis + 2) % 3];
-  for (int slice = page.first; slice <= page.last; ++slice) {
-    const int place = slice - page.first;
-    const glm::ivec2 corner = glm::ivec2(place % page.columns, place / page.columns) * tile;
-    for (int y = 0; y < tile.y; ++y) {
-      const int from_y = std::clamp(y - 1, 0, layout.slice.y - 1);
-      const std::byte* row =
-          texels.data() + static_cast<size_t>(slice) * across + static_cast<size_t>(from_y) * along_y;
-      std::byte* to =
-          out.data() +
-          (static_cast<size_t>(corner.y + y) * static_cast<size_t>(extent.x) + static_cast<size_t>(corner.x)) * texel;
-      for (int x = 0; x < tile.x; ++x, to += texel) {
-        const int from_x = std::clamp(x - (defect(Defect::ForgottenGutter) ? 0 : 1), 0, layout.slice.x - 1);
-        std::memcpy(to, row + static_cast<size_t>(from_x) * along_x, texel);
-      }
-    }
-  }
-  return out;
-}
-
 // Vectors in RGB with the axes of the stack's frame.
 void turn_vectors(std::vector<std::byte>& texels, size_t texel, int axis) {
   const size_t channel = texel / 4, first = static_cast<size_t>((axis + 1) % 3) * channel;
@@ -104,6 +76,33 @@ std::optional<StackLayout> stack_layout(const glm::ivec3& size, int axis, int li
     if (page.last == layout.slices - 1) return layout;
     first = page.last - 1;
   }
+}
+
+std::vector<std::byte> page_texels(const StackLayout& layout, const StackPage& page, const glm::ivec3& size,
+                                   std::span<const std::byte> texels, size_t texel) {
+  const glm::ivec2 extent = layout.extent(page), tile = layout.tile();
+  std::vector<std::byte> out(static_cast<size_t>(extent.x) * static_cast<size_t>(extent.y) * texel);
+  const size_t stride[3] = {texel, texel * static_cast<size_t>(size.x),
+                            texel * static_cast<size_t>(size.x) * static_cast<size_t>(size.y)};
+  const size_t across = stride[layout.axis], along_x = stride[(layout.axis + 1) % 3],
+               along_y = stride[(layout.axis + 2) % 3];
+  for (int slice = page.first; slice <= page.last; ++slice) {
+    const int place = slice - page.first;
+    const glm::ivec2 corner = glm::ivec2(place % page.columns, place / page.columns) * tile;
+    for (int y = 0; y < tile.y; ++y) {
+      const int from_y = std::clamp(y - 1, 0, layout.slice.y - 1);
+      const std::byte* row =
+          texels.data() + static_cast<size_t>(slice) * across + static_cast<size_t>(from_y) * along_y;
+      std::byte* to =
+          out.data() +
+          (static_cast<size_t>(corner.y + y) * static_cast<size_t>(extent.x) + static_cast<size_t>(corner.x)) * texel;
+      for (int x = 0; x < tile.x; ++x, to += texel) {
+        const int from_x = std::clamp(x - (defect(Defect::ForgottenGutter) ? 0 : 1), 0, layout.slice.x - 1);
+        std::memcpy(to, row + static_cast<size_t>(from_x) * along_x, texel);
+      }
+    }
+  }
+  return out;
 }
 
 glm::dvec3 turned(const glm::dvec3& v, int axis) { return {v[(axis + 1) % 3], v[(axis + 2) % 3], v[axis]}; }

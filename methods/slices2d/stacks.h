@@ -45,6 +45,10 @@ struct StackLayout {
 // Nothing where not even three slices (or all that there are) fit into a texture of `limit` texels a side.
 std::optional<StackLayout> stack_layout(const glm::ivec3& size, int axis, int limit);
 
+// The texels of one page, with each tile's gutter, out of those of a volume of `size` (x fastest, `texel` bytes each).
+std::vector<std::byte> page_texels(const StackLayout& layout, const StackPage& page, const glm::ivec3& size,
+                                   std::span<const std::byte> texels, size_t texel);
+
 // The frame of the stack of `axis`.
 glm::dvec3 turned(const glm::dvec3& v, int axis);
 Float4 turned(const Float4& v, int axis);  // w is kept

@@ -6,7 +6,8 @@
 // counts in 1/256 of a texel. Up to t everything is float arithmetic in a fixed order, `precise` so that no compiler
 // fuses or reorders it; from t on all is integers. Nothing here divides.
 //
-// A program that includes this text declares bindings 0..2 and constants 0..4.
+// A program that includes this text declares bindings 0..2 and constants 0..4. VM_TEXELS_GIVEN, defined in front of it,
+// is for programs whose texels are not in a 3D texture: they define texel_red and texel_rgba, and binding 1 as they like.
 VM_SPEC(0, VM_CLASSIFIED, 0)  // 1: texels hold associated colours and opacities
 #ifndef VM_WITHOUT_LIGHTING
 VM_SPEC(1, VM_LIGHTS, 0)    // number of lights; texels then hold normals, and the value as alpha
@@ -39,7 +40,9 @@ layout(std140, binding = 0) uniform FixedUniforms {
 }
 fx;
 
+#ifndef VM_TEXELS_GIVEN
 layout(binding = 1) uniform sampler3D volume_texture;
+#endif
 layout(binding = 2) uniform sampler1D palette;
 
 // ---- Positions ----
@@ -101,8 +104,13 @@ int dot_product(ivec3 a, ivec3 b) {
 // ---- Texture filter: weights of 8 bits, each interpolation rounded to 8 bits ----
 int interpolated(int a, int b, int f) { return a + (((b - a) * f + 128) >> 8); }
 ivec4 interpolated(ivec4 a, ivec4 b, int f) { return a + (((b - a) * f + 128) >> 8); }
+#ifdef VM_TEXELS_GIVEN
+int texel_red(int x, int y, int z);
+ivec4 texel_rgba(int x, int y, int z);
+#else
 int texel_red(int x, int y, int z) { return int(texelFetch(volume_texture, ivec3(x, y, z), 0).r * 255. + .5); }
 ivec4 texel_rgba(int x, int y, int z) { return ivec4(texelFetch(volume_texture, ivec3(x, y, z), 0) * 255. + .5); }
+#endif
 
 int filtered_red(ivec3 t) {
   ivec3 last = ivec3(fx.last.xyz), a = min(t >> 8, last), b = min(a + 1, last), f = t & 255;
