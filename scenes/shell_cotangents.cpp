@@ -62,10 +62,13 @@ std::vector<std::array<glm::dmat3, 6>> cotangents(const Shell& shell) {
   for (size_t prism = 0; prism < shell.prisms(); ++prism) {
     std::array<glm::dvec3, 6> corners;
     for (int i = 0; i < 6; ++i) corners[static_cast<size_t>(i)] = shell.corner(prism, i);
-    const double area = glm::length(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     for (size_t i = 0; i < 6; ++i) {
+      // Of the corner's own layer: the offset triangle may have an area where the mesh's has none.
+      const size_t layer = i < 3 ? 0 : 3;
+      const double area =
+          glm::length(glm::cross(corners[layer + 1] - corners[layer], corners[layer + 2] - corners[layer]));
       const glm::dmat3 own = own_cotangent(corners, shell.texture[prism], i);
-      if (own == glm::dmat3(0)) continue;
+      if (own == glm::dmat3(0) || !(area > 0)) continue;
       Sum& sum = shared[key_of(shell, prism, i)];
       sum.weighted += area * own;
       sum.weight += area;

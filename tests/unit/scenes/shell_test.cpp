@@ -172,6 +172,16 @@ TEST(Shell, CotangentsOfSingularCornersVanish) {
   EXPECT_NE(all[0][1], glm::dmat3(0));
 }
 
+// The mesh's triangle has no area, that of its offset corners has one (found by the fuzzer: 0 / 0).
+TEST(Shell, CotangentsWhereOnlyTheUpperTriangleHasAnArea) {
+  Mesh mesh = triangle();
+  mesh.positions[2] = mesh.positions[1];
+  mesh.normals = {{0, 1, 0}, {-0.5, 1, 0}, {0.5, 1, 0}};
+  for (const glm::dmat3& c : cotangents(make_shell(mesh, {1}, {1, 1}, any_texture(), "m.obj"))[0]) {
+    EXPECT_TRUE(std::isfinite(c[0].x + c[1].y + c[2].z));
+  }
+}
+
 TEST(Shell, GradientFloorScalesWithTheShell) {
   const auto texture = any_texture();
   const Shell thin = make_shell(triangle(), {0.1, 0.05, 0.1}, {1, 1}, texture, "m.obj");
