@@ -290,6 +290,8 @@ std::vector<PlannedCell> cells_to_attribute(std::span<const Group> groups, const
   std::vector<PlannedCell> out = usual_cells(groups, results);
   for (const Group& group : groups)
     for (const Cell& cell : group.cells) {
+      if (!cell.key.variant.empty())
+        continue;  // effects are switched for their price; errors are of the scene as it is
       const Result* result = find_result(results, cell.key);
       if (result == nullptr || !result->error || !result->metrics) continue;
       const bool floor =

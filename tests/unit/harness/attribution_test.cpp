@@ -101,6 +101,24 @@ TEST_F(AttributionTest, TheFinestStandsWhereTheDefaultWasNotMeasured) {
   EXPECT_EQ(std::get<double>(outcome.results.attribution[0].key.params.at("step")), 2);
 }
 
+// The variants of a scene have series with floors of their own; what is taken apart is the scene as it is.
+TEST_F(AttributionTest, StandsBesideSwitchedEffects) {
+  Json cut = scene();
+  cut["effects"]["clip_planes"] = {{{"normal", {1, 0.2, 0}}, {"distance", 0}}};
+  Json json = experiment(
+      {{{"method", "texture3d_slices"}, {"set", {{"target_format", "rgba8"}}}, {"sweep", {1, 0.5, 0.25, 0.125}}}});
+  json["attribute"] = json["effects"] = true;
+  const RunOutcome outcome = run(json, cut);
+  const Results& results = outcome.results;
+  const auto floors = std::count_if(results.convergence.begin(), results.convergence.end(),
+                                    [](const Convergence& row) { return row.floor > 0; });
+  EXPECT_GE(floors, 2) << "8 bits hold the error of the scene as it is, and of the one without its clip plane";
+  EXPECT_FALSE(results.effects.empty());
+  EXPECT_FALSE(results.attribution.empty());
+  for (const Attribution& entry : results.attribution) EXPECT_EQ(entry.key.variant, "");
+  EXPECT_TRUE(validate_results(to_json(results)).empty());
+}
+
 TEST_F(AttributionTest, ResumeKeepsWhatThereIsAndMakesWhatIsMissing) {
   Json json = experiment({{{"method", "raycast"}}, {{"method", "texture3d_slices"}}});
   json["attribute"] = true;
