@@ -33,8 +33,11 @@ double whole_power(double base, int exponent) {
 }  // namespace
 
 RayLights::RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray, double floor)
+    : RayLights(lighting, volume.axes, ray, floor) {}
+
+RayLights::RayLights(const Lighting& lighting, const glm::dmat3& axes, const Ray& ray, double floor)
     : lighting_(lighting), floor_(floor) {
-  const glm::dmat3 to_axes = glm::transpose(volume.axes);
+  const glm::dmat3 to_axes = glm::transpose(axes);
   direction_ = to_axes * ray.direction;
   const double shininess = lighting.shininess;
   const bool whole = shininess >= 0 && shininess <= 1024 && shininess == std::floor(shininess);

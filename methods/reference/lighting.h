@@ -14,7 +14,8 @@ using GradientChord = std::array<Cubic, 3>;  // components as functions of u in 
 
 class RayLights {
  public:
-  // `floor`: gradient_floor() of the scene.
+  // `axes`: of the frame of the gradients, in world space. `floor`: gradient_floor() of the scene.
+  RayLights(const Lighting& lighting, const glm::dmat3& axes, const Ray& ray, double floor);
   RayLights(const Lighting& lighting, const Volume& volume, const Ray& ray, double floor);
 
   // Lit colour at distance t along the ray, where the gradient and the unlit colour are these.

@@ -13,6 +13,7 @@
 
 #include "methods/reference/integrator.h"
 #include "methods/reference/isosurface.h"
+#include "methods/reference/shell_tracer.h"
 #include "methods/reference/slice_plane.h"
 
 namespace volumark {
@@ -21,8 +22,8 @@ namespace {
 constexpr int kTile = 16;  // pixels along each edge
 
 const Scene& checked(const Scene& scene) {
-  if (scene.display != Display::Shell && !scene.volume)
-    throw std::invalid_argument("reference: the scene's volume is not loaded");
+  if (scene.display == Display::Shell) return scene;
+  if (!scene.volume) throw std::invalid_argument("reference: the scene's volume is not loaded");
   if (scene.transfer.points.empty()) throw std::invalid_argument("reference: the transfer function has no point");
   return scene;
 }
@@ -53,8 +54,11 @@ Draw drawing(const Scene& scene, bool many_rays, double tolerance, bool& estimat
       auto tracer = std::make_shared<const PlaneTracer>(scene);
       return [tracer](const Ray& ray) { return tracer->trace(ray); };
     }
-    case Display::Shell:
-      throw std::invalid_argument("reference: scenes that show a shell have no reference");
+    case Display::Shell: {
+      auto tracer = std::make_shared<const ShellTracer>(scene);
+      estimate = true;
+      return [tracer, tolerance](const Ray& ray) { return tracer->trace(ray, tolerance); };
+    }
     case Display::Direct:
       break;
   }

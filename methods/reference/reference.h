@@ -24,7 +24,7 @@ struct Reference {
   std::vector<float> bound;  // per pixel: largest error of any channel (rounding to float included)
   double max_bound = 0;      // of all pixels but the undecided ones
   int64_t undecided = 0;  // pixels of bound 1 or more: within rounding, the ray hits or misses an isosurface or plane
-  bool estimate = false;  // lighting: the bound is an error estimate, not a proof
+  bool estimate = false;  // lighting and shells: the bound is an error estimate, not a proof
   int64_t cells = 0, pieces = 0;
 };
 
