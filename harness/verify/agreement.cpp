@@ -63,7 +63,8 @@ void agreement(CaseRun& run) {
         source->frame(view);
         drawn.push_back({id, source->read_back()});
       }
-      for (size_t i = 0; i + 1 < drawn.size(); ++i) compare(run, entry.name, drawn[i], drawn.back());
+      for (size_t i = 0; i < drawn.size(); ++i)
+        for (size_t k = i + 1; k < drawn.size(); ++k) compare(run, entry.name, drawn[i], drawn[k]);
     } catch (const NotApplicable& why) {
       run.not_applicable(entry.name, why.what());
     }

@@ -29,6 +29,7 @@ void scale_and_place(CaseRun& run);
 void refused_data(CaseRun& run);
 void degenerate_volumes(CaseRun& run);
 void extreme_transfer(CaseRun& run);
+void isovalue_outside(CaseRun& run);
 // reference_cases.cpp
 void reference_on_levels(CaseRun& run);
 void reference_bound(CaseRun& run);
@@ -40,6 +41,10 @@ void early_end(CaseRun& run);
 void lit_gradient(CaseRun& run);
 void voxel_types(CaseRun& run);
 void order_around_eye(CaseRun& run);
+// stacks.cpp
+void stack_switch(CaseRun& run);
+void polygon_textures(CaseRun& run);
+void thick_slices(CaseRun& run);
 // agreement.cpp
 void agreement(CaseRun& run);
 

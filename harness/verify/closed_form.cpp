@@ -237,20 +237,31 @@ void clip_planes(CaseRun& run) {
 void eye_and_ties(CaseRun& run) {
   const Scene scene = homogeneous_cube(9, 1.5);
   const double step = 2. / 8;
-  const auto source = run.prepare(scene, run.stepped(1), kSize, kSize);
-  const auto check = [&](const std::string& name, const View& view) {
-    check_cut_cube(run, name, scene, *source, view, step, 0);
+  const auto check_all = [&](const Settings& settings, const std::string& with) {
+    const auto source = run.prepare(scene, run.stepped(1, settings), kSize, kSize);
+    const auto check = [&](const std::string& name, const View& view) {
+      check_cut_cube(run, name + with, scene, *source, view, step, 0);
+    };
+    // Slices lie at multiples of .25: the eye on one of them, and a view along it.
+    check("the eye on a slice, looking along it", perspective({0.5, 0.1, 0.25}, {-0.5, 0.1, 0.25}));
+    check("the eye on a slice, looking across it", perspective({0.1, 0.2, 0.25}, {0.1, 0.2, -1}));
+    check("the eye inside, between slices", perspective({0.31, -0.52, 0.77}, {-0.4, 0.2, -0.6}, 1.4));
+    check("the eye inside, most slices behind it", perspective({0.1, 0.05, 0.8}, {0.2, 0.1, 4}, 1.2));
+    check("the eye at a corner", perspective({1, 1, 1}, {0, 0, 0}));
+    check("45 degrees between two axes", orthographic({-1, 0, -1}, 1.8));
+    check("45 degrees and a little", orthographic({-1, 0, -1 - 1e-6}, 1.8));
+    check("45 degrees less a little", orthographic({-1, 0, -1 + 1e-6}, 1.8));
+    check("the diagonal of three axes", orthographic({-1, -1, -1}, 1.9));
+    check("perspective across the tie", perspective({2.2, 0, 2.2}, {0, 0, 0}));
+    // Planes across the view that turn into those of the data: the strips between two slices become the whole picture.
+    for (const double tilt : {1e-2, 1e-4, 1e-7, 1e-12})
+      check(fmt::format("slices tilted by {:g} against the view", tilt), orthographic({0, tilt, -1}, 1.4));
+    check("slices tilted by 1e-7 against the view, perspective", perspective({0.1, 0.2, 3}, {0.1, 0.2 + 3e-7, 0}));
   };
-  // Slices lie at multiples of .25: the eye on one of them, and a view along it.
-  check("the eye on a slice, looking along it", perspective({0.5, 0.1, 0.25}, {-0.5, 0.1, 0.25}));
-  check("the eye on a slice, looking across it", perspective({0.1, 0.2, 0.25}, {0.1, 0.2, -1}));
-  check("the eye inside, between slices", perspective({0.31, -0.52, 0.77}, {-0.4, 0.2, -0.6}, 1.4));
-  check("the eye at a corner", perspective({1, 1, 1}, {0, 0, 0}));
-  check("45 degrees between two axes", orthographic({-1, 0, -1}, 1.8));
-  check("45 degrees and a little", orthographic({-1, 0, -1 - 1e-6}, 1.8));
-  check("45 degrees less a little", orthographic({-1, 0, -1 + 1e-6}, 1.8));
-  check("the diagonal of three axes", orthographic({-1, -1, -1}, 1.9));
-  check("perspective across the tie", perspective({2.2, 0, 2.2}, {0, 0, 0}));
+  check_all({}, "");
+  for (const char* textures : {"2", "4"})
+    if (run.has("textures_per_polygon", std::string(textures)))
+      check_all({{"textures_per_polygon", std::string(textures)}}, fmt::format(", {} slices on a polygon", textures));
 }
 
 }  // namespace volumark::hard_cases

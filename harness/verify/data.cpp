@@ -113,6 +113,32 @@ void degenerate_volumes(CaseRun& run) {
   }
 }
 
+void isovalue_outside(CaseRun& run) {
+  // Data 0 to 1 and a window that is wider: below all of them everything is solid, above none of it.
+  const auto scene = [](double value) {
+    Scene out = scene_of(volume_of(RampField{0, 0, 1}, glm::ivec3(9)), transfer_of({{0, glm::dvec3(1), 1}}, -2, 3));
+    out.isosurface = Isosurface{value, {0.25, 0.5, 0.75}, glm::dvec3(1)};
+    out.display = Display::Isosurface;
+    return out;
+  };
+  const double moved = place_error(kSize);
+  for (const double value : {1.5, 2.9, 7.0})
+    run.add_equal(fmt::format("isovalue {:g}, above all data: exactly nothing", value),
+                  run.draw(scene(value), run.values({}), slanted(), kSize, kSize), Image(kSize, kSize), 0,
+                  "no sample reaches it");
+  for (const double value : {-0.5, -1.9, -7.0})
+    run.add_picture(
+        fmt::format("isovalue {:g}, below all data: the box, of one colour", value),
+        run.draw(scene(value), run.values({}), slanted(), kSize, kSize),
+        "rays that hit a box moved by pixels 2^-23 may show it, those that hit one as much smaller must",
+        [&](int x, int y, int channel) {
+          const Ray ray = pixel_ray(slanted(), kSize, kSize, x, y);
+          const double colour = channel == 3 ? 1 : 0.25 * (channel + 1);
+          const auto hit = [&](double grow) { return box_chord(ray, glm::dvec3(1 + grow)).length() > 0; };
+          return Allowed{hit(0) ? colour : 0, hit(-moved) ? colour - 0x1p-20 : 0, hit(moved) ? colour + 0x1p-20 : 0};
+        });
+}
+
 void extreme_transfer(CaseRun& run) {
   const Volume ramp = volume_of(RampField{0, 0, 1}, glm::ivec3(9));
   const auto scene = [&](std::vector<TransferPoint> points, const Volume& volume) {

@@ -98,10 +98,12 @@ class Suite {
   }
 
   void open_backends() {
-    static const std::vector<std::string> kAll = {"gl", "vulkan", "cpu"};
-    std::vector<std::string> known;
-    for (const BackendEntry& entry : backend_list()) known.emplace_back(entry.id);
-    for (const std::string& id : options_.backends.empty() ? kAll : options_.backends) {
+    std::vector<std::string> known, drawing;
+    for (const BackendEntry& entry : backend_list()) {
+      known.emplace_back(entry.id);
+      if (known.back() != "null") drawing.emplace_back(entry.id);
+    }
+    for (const std::string& id : options_.backends.empty() ? drawing : options_.backends) {
       if (std::find(known.begin(), known.end(), id) == known.end()) unknown("backend", id, known);
       try {
         devices_.emplace_back(id, std::make_unique<Device>(make_device(id, options_.device)));

@@ -40,7 +40,7 @@ struct HardCase {
 std::span<const HardCase> hard_case_list();
 
 struct VerifyOptions {
-  std::vector<std::string> backends;        // empty: gl, vulkan and cpu
+  std::vector<std::string> backends;        // empty: all that draw
   std::vector<std::string> methods, cases;  // names; ids or numbers; empty: all
   std::vector<const Method*> method_list;   // empty: the list of methods/methods.cpp
   DeviceOptions device;
