@@ -170,14 +170,17 @@ HWY_INLINE void combine(FragmentBatch& batch, size_t i, const Rgba& slice) {
        hn::MulAdd(through, load(batch.rgba[2] + i), slice.b), hn::MulAdd(through, load(batch.rgba[3] + i), slice.a)});
 }
 
-// main(): add(rays, meets, number) for each texture of the polygon, the farthest first.
-template <int textures, bool corrected, class Add>
+// main(): add(rays, meets, number) for each texture of the polygon, the farthest first. `writes_first`: add() stores a
+// colour for every fragment where number is 0, instead of combining with nothing.
+template <int textures, bool corrected, bool writes_first = false, class Add>
 HWY_INLINE void each_texture(const SliceBindings& b, FragmentBatch& batch, const Add& add) {
   Rays rays;
   Meets meets;
   locate(b, batch, rays, meets);
-  const Floats zero = splat(0.F);
-  for_lanes(batch.count, [&](size_t i) HWY_ATTR { store_rgba(batch, i, {zero, zero, zero, zero}); });
+  if constexpr (!writes_first) {
+    const Floats zero = splat(0.F);
+    for_lanes(batch.count, [&](size_t i) HWY_ATTR { store_rgba(batch, i, {zero, zero, zero, zero}); });
+  }
   for (int i = 0; i < textures; ++i) {
     const auto number = static_cast<float>(i);
     if (corrected || i == 0) {

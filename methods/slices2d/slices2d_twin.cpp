@@ -37,16 +37,25 @@ HWY_NOINLINE void fetch_slice(const SliceBindings& b, const Page& page, const Ra
     values.put(i, normalised_value(b.vm, sample_at<interpolate>(b, page, rays, meets, number, i).r));
   });
 }
-template <bool linear_opacity>
+// `first`: nothing is there yet, and every fragment gets a colour.
+template <bool linear_opacity, bool first>
 HWY_NOINLINE void add_values(const SliceBindings& b, const Rays& rays, const Meets& meets, float number,
                              const Lane& values, FragmentBatch& batch) {
-  const Floats one = splat(1.F);
+  const Floats zero = splat(0.F), one = splat(1.F);
+  const auto add_nothing = [&](size_t i) HWY_ATTR {
+    if constexpr (first) store_rgba(batch, i, {zero, zero, zero, zero});
+  };
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
     const Floats length = length_of(rays, meets, number, i);
-    if (all_zero(length)) return;
+    if (all_zero(length)) return add_nothing(i);
     const Rgba point = transfer(b, values.get(i));
-    if (all_zero(point.a)) return;  // adds 0, and leaves all of what is there
-    combine(batch, i, shade_segment<linear_opacity, false>(b, point, length, {one, one, one}));
+    if (all_zero(point.a)) return add_nothing(i);
+    const Rgba slice = shade_segment<linear_opacity, false>(b, point, length, {one, one, one});
+    if constexpr (first) {
+      store_rgba(batch, i, slice);
+    } else {
+      combine(batch, i, slice);
+    }
   });
 }
 template <bool linear_opacity>
@@ -79,13 +88,17 @@ HWY_INLINE void fetch_slice_of(const SliceBindings& b, const Rays& rays, const M
 template <bool pre, bool linear_opacity, bool interpolate, int textures, bool corrected>
 void fragment(const CpuBindings& bindings, FragmentBatch& batch) {
   const SliceBindings b(bindings);
-  each_texture<textures, corrected>(b, batch, [&](const Rays& rays, const Meets& meets, float number) HWY_ATTR {
+  each_texture<textures, corrected, !pre>(b, batch, [&](const Rays& rays, const Meets& meets, float number) HWY_ATTR {
     if constexpr (pre) {
       add_classified<linear_opacity>(b, AnyPage{b}, rays, meets, number, interpolate, batch);
     } else {
       Lane values;
       fetch_slice_of<interpolate>(b, rays, meets, number, batch.count, values);
-      add_values<linear_opacity>(b, rays, meets, number, values, batch);
+      if (number == 0) {
+        add_values<linear_opacity, true>(b, rays, meets, number, values, batch);
+      } else {
+        add_values<linear_opacity, false>(b, rays, meets, number, values, batch);
+      }
     }
   });
 }
