@@ -57,9 +57,10 @@ class Garden {
       canvas_.body(
           {at.x - radius, at.y - radius, from}, {at.x + radius, at.y + radius, to}, 1,
           [&](const glm::dvec3& p) {
-            const double ragged = 0.016 * noise_.fbm(p * 32.0, 2, glm::ivec3(32));
             const double r = radius * (to - p.z) / (to - from);
-            return std::max(from - p.z, 0.8 * (std::hypot(p.x - at.x, p.y - at.y) - r)) + ragged;
+            const double smooth = std::max(from - p.z, 0.8 * (std::hypot(p.x - at.x, p.y - at.y) - r));
+            if (smooth > 0.05) return smooth;  // no needle reaches so far
+            return smooth + 0.016 * noise_.fbm(p * 32.0, 2, glm::ivec3(32));
           },
           [&](const glm::dvec3& p) {
             const double t2 =
@@ -77,7 +78,9 @@ class Garden {
     canvas_.body(
         crown - 1.25 * radius, crown + 1.25 * radius, 1,
         [&](const glm::dvec3& p) {
-          return 0.7 * (ball(p, crown, radius) + 0.06 * noise_.fbm(p * 16.0, 3, glm::ivec3(16)));
+          const double smooth = ball(p, crown, radius);
+          if (smooth > 0.15) return smooth;
+          return 0.7 * (smooth + 0.06 * noise_.fbm(p * 16.0, 3, glm::ivec3(16)));
         },
         [&](const glm::dvec3& p) {
           const double t =

@@ -1,9 +1,5 @@
 #include "scenes/data/read_mesh.h"
 
-#include <fmt/format.h>
-
-#include <limits>
-
 #include "scenes/data/byte_source.h"
 #include "scenes/data/obj.h"
 #include "scenes/data/ply.h"
@@ -22,7 +18,9 @@ Mesh read_mesh(std::span<const std::byte> file, const std::string& name) {
   }
   std::vector<std::byte> unpacked;
   if (gzip) {
-    unpacked = ByteSource(file, true, name).read_up_to(std::numeric_limits<size_t>::max());
+    constexpr size_t kMost = size_t{1} << 30;  // a bomb of a few kilobytes can unpack to more than there is memory
+    unpacked = ByteSource(file, true, name).read_up_to(kMost + 1);
+    if (unpacked.size() > kMost) throw DataError(name + ": unpacks to more than 1 GiB");
     file = unpacked;
   }
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
