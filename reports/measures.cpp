@@ -9,7 +9,8 @@
 namespace volumark {
 namespace {
 
-constexpr std::array kErrors = {"rmse", "max", "mae", "flip_mean", "flip_p99", "bias", "ciede2000_p99", "dssim", "jump"};
+constexpr std::array kErrors = {"rmse", "max",           "mae",   "flip_mean", "flip_p99",
+                                "bias", "ciede2000_p99", "dssim", "jump"};
 constexpr std::array kBytes = {"device", "process", "voxels", "target"};
 
 // "counter.slices": "slices" where the prefix is "counter.".
