@@ -151,12 +151,14 @@ Neighbourhood neighbourhood(const Reference& reference, int x, int y) {
   return out;
 }
 
-Region region_of(const Slopes& slopes, const View& view, const Reference& reference, int x, int y) {
+// `slopes` null: nothing is grazing.
+Region region_of(const Slopes* slopes, const View& view, const Reference& reference, int x, int y) {
   const Neighbourhood around = neighbourhood(reference, x, y);
   if (around.empty) return Region::Background;
   if (around.hi - around.lo > kSilhouetteSpan) return Region::Silhouette;
+  if (slopes == nullptr) return Region::Interior;
   const Ray ray = pixel_ray(view, reference.image.width, reference.image.height, x, y);
-  return slopes.cosine(ray) < kGrazingCosine ? Region::Grazing : Region::Interior;
+  return slopes->cosine(ray) < kGrazingCosine ? Region::Grazing : Region::Interior;
 }
 
 bool equals_background(const Reference& reference, const glm::dvec3& background) {
@@ -186,11 +188,12 @@ RegionMap region_map(const Scene& scene, const View& view, const Reference& refe
   const int available = tbb::info::default_concurrency();
   tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
   arena.execute([&] {
-    const Slopes slopes(scene);
+    std::optional<Slopes> slopes;
+    if (scene.volume) slopes.emplace(scene);
     tbb::parallel_for(0, out.height, [&](int y) {
       for (int x = 0; x < out.width; ++x)
         out.pixels[static_cast<size_t>(y) * static_cast<size_t>(out.width) + static_cast<size_t>(x)] =
-            region_of(slopes, view, reference, x, y);
+            region_of(slopes ? &*slopes : nullptr, view, reference, x, y);
     });
   });
   return out;

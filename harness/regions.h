@@ -18,7 +18,7 @@ namespace volumark {
 // Grazing: |n . v| < 0.2, n the normalised gradient of the data (central differences, interpolated) where the ray's
 // contribution T (1 - exp(-tau h)) is largest, v the ray's direction; a march in half of the smallest voxel spacing. Of
 // an isosurface: at the point that the ray shows. A slice plane has none.
-// Interior: the rest, also where the gradient vanishes.
+// Interior: the rest, also where the gradient vanishes, and all of it in scenes that show a shell.
 enum class Region : uint8_t { Background, Silhouette, Grazing, Interior };
 inline constexpr Region kRegions[] = {Region::Silhouette, Region::Grazing, Region::Interior, Region::Background};
 const char* to_string(Region region);
@@ -33,7 +33,7 @@ struct RegionMap {
   bool shows_nothing = false;
 };
 
-// Of the view that `reference` shows. The scene's volume is loaded. `threads`: 0 = all; the map does not depend on it.
+// Of the view that `reference` shows. The scene's volume or shell is loaded. `threads`: 0 = all; the map does not depend on it.
 RegionMap region_map(const Scene& scene, const View& view, const Reference& reference, int threads = 0);
 
 // Errors of `test` against the reference, over the scene's background, in each region that has a pixel. Throws
