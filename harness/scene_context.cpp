@@ -35,11 +35,6 @@ SceneContext make_context(const Experiment& experiment, const std::string& scene
 void make_references(SceneContext& context, const Experiment& experiment, const ReferenceCache& cache,
                      const PictureStore& store, int threads, const std::atomic<bool>* stop, Progress& progress) {
   if (context.missing || context.broken || !experiment.references) return;
-  if (context.scene.display == Display::Shell) {
-    progress.line(fmt::format("no reference of {}: it shows a shell, which the reference does not draw",
-                              context.scene.name));
-    return;
-  }
   context.unreferenced = context.scene.effects.others;
   const Scene scene = without_effects(context.scene, context.unreferenced);
   ReferenceOptions options;
@@ -104,6 +99,7 @@ SceneResultInfo scene_result_info(const Scene& scene) {
   out.licence = scene.source.licence;
   out.origin = scene.source.origin;
   out.effects = effect_names(scene.effects);
+  out.display = to_string(scene.display);
   for (const View& view : scene.views) out.views.push_back(view.name);
   out.background = {scene.background.r, scene.background.g, scene.background.b};
   return out;

@@ -79,6 +79,7 @@ struct SceneResultInfo {
   std::string voxel_type, licence, origin;
   std::vector<std::string> effects, views;  // views: names, in the scene's order
   std::array<double, 3> background{};       // linear RGB; images are drawn over it
+  std::string display = "direct";           // what it shows: direct, isosurface, slice_plane, shell
 };
 
 struct ParameterResultInfo {

@@ -81,6 +81,7 @@ void fields(A& a, SceneResultInfo& v) {
   a.field("effects", v.effects);
   a.field("views", v.views);
   a.field("background", v.background);
+  a.later("display", v.display);
 }
 
 template <class A>

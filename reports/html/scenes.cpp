@@ -17,6 +17,9 @@ std::string facts(const SceneResultInfo& info) {
   if (!info.voxel_type.empty())
     out += fmt::format("<span>{} &times; {} &times; {} voxels, {}</span>", info.voxels[0], info.voxels[1],
                        info.voxels[2], escape(info.voxel_type));
+  std::string shows = info.display;
+  std::replace(shows.begin(), shows.end(), '_', ' ');
+  if (shows != "direct") out += "<span><span class=\"dim\">shows</span> " + escape(shows) + "</span>";
   std::string effects;
   for (const std::string& effect : info.effects) effects += (effects.empty() ? "" : ", ") + effect;
   out += "<span><span class=\"dim\">effects</span> " + (effects.empty() ? "none" : escape(effects)) + "</span>";
