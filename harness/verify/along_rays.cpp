@@ -60,8 +60,10 @@ void segments_in_order(CaseRun& run) {
 void thin_medium(CaseRun& run) {
   // So little light that the opacity of a segment must be right to its own digits, not to those of 1.
   const View view = orthographic({0, 0, -1}, 0.5, 60);
+  bool classifies = false;
   for (const char* classification : {"post", "pre", "preintegrated"}) {
     if (!run.has("classification", classification)) continue;
+    classifies = true;
     for (const auto& [depth, cells] : {std::pair(1e-2, 100), std::pair(1e-4, 10)}) {
       const Image image =
           run.draw(deep_box(cells, depth), run.stepped(1, {{"classification", classification}}), view, 1, 1);
@@ -75,6 +77,7 @@ void thin_medium(CaseRun& run) {
                  .source = "n blends round once each, by 2^-24 of what is there; 2^-19 for the opacity of a segment"});
     }
   }
+  if (!classifies) throw NotApplicable(run.method().info().name + " has no parameter classification");
 }
 
 void early_end(CaseRun& run) {

@@ -5,6 +5,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include "scenes/scene.h"
+#include "tests/unit/shell_slices/hand_made.h"
 
 namespace volumark::testing {
 
@@ -31,11 +32,15 @@ inline Scene scene_of(Volume volume, double lo = 0, double hi = 255) {
   return scene;
 }
 
-// The scene showing what a method that draws `display` can draw; shells have no volume and are put together elsewhere.
+// The scene showing what a method that draws `display` can draw; a shell of one prism instead of the volume.
 inline Scene showing(Scene scene, Display display) {
   scene.display = display;
   if (display == Display::Isosurface) scene.isosurface.emplace().value = (scene.transfer.lo + scene.transfer.hi) / 2;
   if (display == Display::SlicePlane) scene.slice_plane.emplace();
+  if (display == Display::Shell) {
+    scene.volume.reset();
+    scene.shell = std::make_shared<Shell>(one_prism(1, {.1, .1, .1}));
+  }
   return scene;
 }
 
