@@ -33,7 +33,8 @@ struct RegionMap {
   bool shows_nothing = false;
 };
 
-// Of the view that `reference` shows. The scene's volume or shell is loaded. `threads`: 0 = all; the map does not depend on it.
+// Of the view that `reference` shows. The scene's volume or shell is loaded. `threads`: 0 = all; the map does not
+// depend on it.
 RegionMap region_map(const Scene& scene, const View& view, const Reference& reference, int threads = 0);
 
 // Errors of `test` against the reference, over the scene's background, in each region that has a pixel. Throws
