@@ -36,18 +36,30 @@ double least_of(const Quadratic& q, double sign) {
   return least - q.error;
 }
 
-// Of the six corners: the middle of their box; no smaller sphere is needed to reject planes.
-void bound(const ShellPrisms& shell, Prism& prism) {
-  glm::dvec3 lo(shell.corner(prism, 0)), hi = lo;
-  for (int i = 1; i < 6; ++i) {
-    const glm::dvec3 corner(shell.corner(prism, i));
-    lo = glm::min(lo, corner);
-    hi = glm::max(hi, corner);
-  }
-  prism.middle = 0.5 * (lo + hi);
-  prism.radius = 0;
+double reach_of(const ShellPrisms& shell, const Prism& prism, const glm::dvec3& middle, glm::dvec3& farthest) {
+  double reach = -1;
   for (int i = 0; i < 6; ++i) {
-    prism.radius = std::max(prism.radius, glm::distance(prism.middle, glm::dvec3(shell.corner(prism, i))));
+    const glm::dvec3 corner(shell.corner(prism, i));
+    const double distance = glm::distance(middle, corner);
+    if (distance > reach) farthest = corner;
+    reach = std::max(reach, distance);
+  }
+  return reach;
+}
+
+// The smallest sphere around the six corners, but for a few per cent (Badoiu and Clarkson 2003: steps towards the
+// farthest corner, each shorter than the one before).
+void bound(const ShellPrisms& shell, Prism& prism) {
+  glm::dvec3 middle(0), farthest(0);
+  for (int i = 0; i < 6; ++i) middle += glm::dvec3(shell.corner(prism, i)) / 6.;
+  prism.middle = middle;
+  prism.radius = reach_of(shell, prism, middle, farthest);
+  for (int step = 2; step < 64; ++step) {
+    middle += (farthest - middle) / static_cast<double>(step);
+    const double reach = reach_of(shell, prism, middle, farthest);
+    if (reach >= prism.radius) continue;
+    prism.middle = middle;
+    prism.radius = reach;
   }
 }
 

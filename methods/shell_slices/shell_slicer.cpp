@@ -60,6 +60,8 @@ std::vector<ParameterInfo> shell_parameter_list(const std::vector<ParameterInfo>
 
 std::optional<std::string> shell_unsupported(const Scene& scene, size_t bytes_a_prism, const BackendInfo& backend) {
   if (!scene.shell) return "the scene's shell is not loaded";
+  const size_t lights = scene.effects.lighting ? scene.effects.lighting->lights.size() : 0;
+  if (lights > kMaxLights) return fmt::format("{} lights; at most {}", lights, kMaxLights);
   const glm::ivec3 size = scene.shell->colours->size;
   if (std::max({size.x, size.y, size.z}) > backend.limits.texture_3d) {
     return fmt::format("a texture of {} x {} x {} texels; {} takes {} an axis", size.x, size.y, size.z, backend.id,
