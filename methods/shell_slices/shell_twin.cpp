@@ -141,34 +141,47 @@ HWY_INLINE RepeatCell repeat_cell(Floats coordinate, int extent) {
   return {i0, i1, hn::Sub(at, floor)};
 }
 
-// textureLod of RGBA32F texels, linear and repeating: eight 128-bit loads a lane, interpolated as whole texels.
-HWY_INLINE Rgba sample_texels(const CpuTexture& texture, Floats u, Floats v, Floats w) {
-  const FloatTag d;
+// Where the eight texels of `count` samples lie, in floats, and their weights.
+template <size_t count>
+struct alignas(64) TexelCells {
+  int32_t x[2][count], row[4][count];
+  float weight[3][count];
+};
+
+template <size_t count>
+HWY_INLINE void locate(const CpuTexture& texture, const Floats3& at, size_t i, TexelCells<count>& cells) {
   const IntTag di;
-  const hn::Full128<float> d4;
-  const RepeatCell x = repeat_cell(u, texture.width), y = repeat_cell(v, texture.height),
-                   z = repeat_cell(w, texture.depth);
+  const RepeatCell x = repeat_cell(at.x, texture.width), y = repeat_cell(at.y, texture.height),
+                   z = repeat_cell(at.z, texture.depth);
   const Ints row = hn::Set(di, static_cast<int32_t>(texture.row_stride)),
              slice = hn::Set(di, static_cast<int32_t>(texture.slice_stride));
   const Ints y0 = hn::Mul(y.i0, row), y1 = hn::Mul(y.i1, row), z0 = hn::Mul(z.i0, slice), z1 = hn::Mul(z.i1, slice);
-  alignas(64) int32_t x_at[2][kMaxLanes], row_at[4][kMaxLanes];
-  alignas(64) float t[3][kMaxLanes], quad[4 * kMaxLanes];
-  hn::Store(hn::ShiftLeft<2>(x.i0), di, x_at[0]);
-  hn::Store(hn::ShiftLeft<2>(x.i1), di, x_at[1]);
-  hn::Store(hn::ShiftLeft<2>(hn::Add(y0, z0)), di, row_at[0]);
-  hn::Store(hn::ShiftLeft<2>(hn::Add(y1, z0)), di, row_at[1]);
-  hn::Store(hn::ShiftLeft<2>(hn::Add(y0, z1)), di, row_at[2]);
-  hn::Store(hn::ShiftLeft<2>(hn::Add(y1, z1)), di, row_at[3]);
-  store(x.t, t[0]);
-  store(y.t, t[1]);
-  store(z.t, t[2]);
+  hn::Store(hn::ShiftLeft<2>(x.i0), di, cells.x[0] + i);
+  hn::Store(hn::ShiftLeft<2>(x.i1), di, cells.x[1] + i);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y0, z0)), di, cells.row[0] + i);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y1, z0)), di, cells.row[1] + i);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y0, z1)), di, cells.row[2] + i);
+  hn::Store(hn::ShiftLeft<2>(hn::Add(y1, z1)), di, cells.row[3] + i);
+  store(x.t, cells.weight[0] + i);
+  store(y.t, cells.weight[1] + i);
+  store(z.t, cells.weight[2] + i);
+}
+
+// textureLod of RGBA32F texels, linear and repeating: eight 128-bit loads a lane, interpolated as whole texels.
+template <size_t count>
+HWY_INLINE Rgba sample_cells(const CpuTexture& texture, const TexelCells<count>& cells, size_t i) {
+  const FloatTag d;
+  const hn::Full128<float> d4;
+  alignas(64) float quad[4 * kMaxLanes];
   const auto* texels = reinterpret_cast<const float*>(texture.data);
   for (size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-    const auto tx = hn::Set(d4, t[0][lane]), ty = hn::Set(d4, t[1][lane]), tz = hn::Set(d4, t[2][lane]);
+    const size_t k = i + lane;
+    const auto tx = hn::Set(d4, cells.weight[0][k]), ty = hn::Set(d4, cells.weight[1][k]),
+               tz = hn::Set(d4, cells.weight[2][k]);
     const auto mix4 = [&](auto a, auto b, auto s) HWY_ATTR { return hn::MulAdd(hn::Sub(b, a), s, a); };
     const auto along_row = [&](int r) HWY_ATTR {
-      const float* base = texels + row_at[r][lane];
-      return mix4(hn::LoadU(d4, base + x_at[0][lane]), hn::LoadU(d4, base + x_at[1][lane]), tx);
+      const float* base = texels + cells.row[r][k];
+      return mix4(hn::LoadU(d4, base + cells.x[0][k]), hn::LoadU(d4, base + cells.x[1][k]), tx);
     };
     const auto low = mix4(along_row(0), along_row(1), ty), high = mix4(along_row(2), along_row(3), ty);
     hn::Store(mix4(low, high, tz), d4, quad + 4 * lane);
@@ -178,6 +191,21 @@ HWY_INLINE Rgba sample_texels(const CpuTexture& texture, Floats u, Floats v, Flo
   return out;
 }
 
+HWY_INLINE Rgba sample_texels(const CpuTexture& texture, const Floats3& at) {
+  TexelCells<kMaxLanes> cells;
+  locate(texture, at, 0, cells);
+  return sample_cells(texture, cells, 0);
+}
+
+// The texture is far larger than a cache, and the batch knows all it will need of it.
+template <size_t count>
+HWY_INLINE void prefetch(const CpuTexture& texture, const TexelCells<count>& cells, size_t i) {
+  const auto* texels = reinterpret_cast<const float*>(texture.data);
+  for (size_t k = i; k < i + hn::Lanes(FloatTag()); ++k) {
+    for (int r = 0; r < 4; ++r) hwy::Prefetch(texels + cells.row[r][k] + cells.x[0][k]);
+  }
+}
+
 // The int32 offsets of sample_texels, in floats, reach.
 bool fits_texels(const CpuTexture& texture) {
   return texture.format == Format::RGBA32F && texture.slice_stride * texture.depth < (ptrdiff_t{1} << 29);
@@ -185,7 +213,7 @@ bool fits_texels(const CpuTexture& texture) {
 
 template <bool texels>
 HWY_INLINE Rgba fetch(const CpuTexture& texture, const Floats3& at) {
-  return texels ? sample_texels(texture, at.x, at.y, at.z) : sample_3d(texture, at.x, at.y, at.z);
+  return texels ? sample_texels(texture, at) : sample_3d(texture, at.x, at.y, at.z);
 }
 
 HWY_INLINE Floats3 within(const ShellUniforms& u, const Floats3& at) {
@@ -214,12 +242,24 @@ void shade(const CpuBindings& bindings, FragmentBatch& batch) {
   const ShellUniforms& u = uniforms_of(bindings);
   const CpuTexture& texture = bindings.textures[1];
   const Floats one = splat(1.F), tiny = splat(1e-30F), scale = splat(u.texture[3]);
+  TexelCells<kMaxBatch + kBatchPadding> cells;
+  if constexpr (texels) {
+    for_lanes(batch.count, [&](size_t i) HWY_ATTR {
+      locate(texture, within(u, varying3(batch, 0, i)), i, cells);
+      prefetch(texture, cells, i);
+    });
+  }
   for_lanes(batch.count, [&](size_t i) HWY_ATTR {
     const Floats x = hn::Mul(hn::MulAdd(load(batch.x + i), splat(u.window[0]), splat(-1.F)), splat(u.window[2]));
     const Floats y = hn::Mul(hn::MulAdd(load(batch.y + i), splat(u.window[1]), one), splat(u.window[3]));
     const Floats len = hn::Mul(splat(u.texture[2]), hn::Sqrt(hn::Add(one, hn::MulAdd(x, x, hn::Mul(y, y)))));
     const Floats3 at = within(u, varying3(batch, 0, i));
-    const Rgba stored = fetch<texels>(texture, at);
+    Rgba stored;
+    if constexpr (texels) {
+      stored = sample_cells(texture, cells, i);
+    } else {
+      stored = sample_3d(texture, at.x, at.y, at.z);
+    }
     const Floats tau = hn::Mul(stored.a, scale);
     const Floats alpha = opacity_of<linear_opacity>(hn::Mul(tau, len));
     Floats3 emission = scaled(colour_of(stored), scale);
