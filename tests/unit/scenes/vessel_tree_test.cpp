@@ -70,7 +70,9 @@ TEST(VesselTree, ForksFollowMurraysLaw) {
     tips += children == 0 ? 1 : 0;
     forks += children == 2 ? 1 : 0;
     ASSERT_LE(children, 2);
-    if (children > 0) EXPECT_NEAR(cubes, std::pow(s.radius_to, 3), 1e-12);
+    if (children > 0) {
+      EXPECT_NEAR(cubes, std::pow(s.radius_to, 3), 1e-12);
+    }
   }
   EXPECT_EQ(forks, 63);  // 2^6 - 1
   EXPECT_EQ(tips, 64);
