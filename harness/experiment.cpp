@@ -170,6 +170,7 @@ Experiment parse_experiment(std::string_view text, const std::string& path) {
                                  "image_size",
                                  "sampling",
                                  "images",
+                                 "references",
                                  "reference_tolerance",
                                  "reference_budget",
                                  "limits",
@@ -217,6 +218,11 @@ Experiment parse_experiment(std::string_view text, const std::string& path) {
     out.expect_order_on = unique_strings(*smooth, "scene");
     for (const JsonNode& one : smooth->array())
       must_be_known(one, one.string(), "scene of this experiment", out.scenes);
+  }
+  if (const auto references = object.find("references")) {
+    out.references = references->boolean();
+    for (const char* needing : {"limits", "finest_limits", "attribute", "pairs", "expect_order_on"})
+      if (!out.references && object.has(needing)) object.at(needing).fail("needs references, which are switched off");
   }
   out.claims = parse_claims(object, out);
   return out;

@@ -40,7 +40,7 @@ struct Experiment {
   enum class Images { None, First, All } images = Images::First;  // which views' pictures are kept
   double reference_tolerance = 1e-6;
   double reference_budget = 1800;  // seconds that the references of one scene may be expected to take
-  bool references = true;          // false: times alone (run --no-reference)
+  bool references = true;          // false: times and counters alone (also run --no-reference)
   // Metric -> worst allowed value, over the views of a cell: rmse, max, bias, flip_p99; `finest` gates only the finest
   // value of each sweep. A cell above is wrong_image.
   std::map<std::string, double> limits, finest_limits;

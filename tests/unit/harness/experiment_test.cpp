@@ -65,6 +65,14 @@ TEST(Experiment, EveryKeyIsRead) {
   EXPECT_EQ(e.expect_order_on, (std::vector<std::string>{"sphere"}));
 }
 
+TEST(Experiment, ReferencesCanBeSwitchedOff) {
+  Json json = valid();
+  EXPECT_TRUE(parse(json).references);
+  for (const char* needing : {"limits", "finest_limits", "expect_order_on"}) json.erase(needing);
+  json["references"] = false;
+  EXPECT_FALSE(parse(json).references);
+}
+
 TEST(Experiment, DefaultSweepIsTheMethods) {
   Json json = valid();
   json["methods"][0]["sweep"] = "default";
@@ -104,6 +112,8 @@ TEST(Experiment, MistakesAreNamedWithTheirPlace) {
       {"/sampling/most", 1, "below least"},
       {"/sampling/seconds", 1, "seconds"},
       {"/images", "some", "/images"},
+      {"/references", "no", "/references"},
+      {"/references", false, "/limits: needs references, which are switched off"},
       {"/limits/rms", 1, "did you mean \"rmse\"?"},
       {"/limits/rmse", -1, "/limits/rmse"},
       {"/parity", "yes", "/parity"},
