@@ -98,7 +98,9 @@ Values CaseRun::scene_values(const Scene& scene) const {
   if (!scene.volume) return values({});
   const glm::dvec3 extent = scene.volume->extent(), spacing = scene.volume->spacing;
   const double voxels = glm::length(extent) / std::min({spacing.x, spacing.y, spacing.z});
-  return stepped(std::max(1.0, voxels / 100));
+  const std::vector<ParameterInfo>& all = method().info().parameters;
+  const bool steps = std::any_of(all.begin(), all.end(), [](const ParameterInfo& info) { return info.quality_axis; });
+  return steps ? stepped(std::max(1.0, voxels / 100)) : values({});
 }
 
 std::unique_ptr<FrameSource> CaseRun::prepare(const Scene& scene, const Values& values, int width, int height) {

@@ -69,8 +69,8 @@ class CaseRun {
   Values stepped(double step, Settings settings = {}) const;
   // Whether the step is taken as given, and slabs begin where the volume does: n slices are n slabs.
   bool steps_exactly() const;
-  // For pictures of whole scenes: the step is one voxel, or what cuts the diagonal into about a hundred segments. Of shells:
-  // the method's own defaults.
+  // For pictures of whole scenes: the step is one voxel, or what cuts the diagonal into about a hundred segments. Of
+  // methods without steps, and of shells: the method's own defaults.
   Values scene_values(const Scene& scene) const;
   bool has(const std::string& parameter, const Value& value) const;
 

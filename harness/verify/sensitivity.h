@@ -22,7 +22,9 @@ struct SensitivityFrames {
   Image base;
   std::vector<Image> small_motion, large_motion;
 };
-SensitivityRow judge_sensitivity(const SensitivityFrames& frames, int64_t view, double& worst);
+// `edges`, by pixel: those that an edge of an opaque picture passes (edges.h), which are left out; empty: none.
+SensitivityRow judge_sensitivity(const SensitivityFrames& frames, int64_t view, double& worst,
+                                 const std::vector<bool>& edges = {});
 
 // Every shipped scene by the case's method on its backend: a row of the case and a row of sensitivity each.
 void run_sensitivity(CaseRun& run, std::vector<SensitivityRow>& rows, std::vector<SceneResultInfo>& scenes);

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "harness/verify/case_run.h"
+#include "harness/verify/edges.h"
 #include "harness/verify/sensitivity.h"
 #include "harness/verify/test_scenes.h"
 
@@ -179,6 +180,52 @@ TEST(Sensitivity, APopIsFoundWhereItIs) {
   EXPECT_EQ(row.spikes[0].view, 3);
   EXPECT_GT(worst, 1);
   EXPECT_THAT(row.reason, HasSubstr("7, 4"));
+}
+
+TEST(Sensitivity, PixelsThatAnEdgePassesAreLeftOut) {
+  std::vector<bool> edges(120);
+  edges[4 * 12 + 7] = true;
+  double worst = 0;
+  EXPECT_TRUE(judge_sensitivity(frames_with_pop(1e-3), 0, worst, edges).ok);
+  EXPECT_LT(worst, 1);
+  edges[4 * 12 + 7] = false;
+  edges[4 * 12 + 8] = true;
+  EXPECT_FALSE(judge_sensitivity(frames_with_pop(1e-3), 0, worst, edges).ok);
+}
+
+// Grey values at kEdgePlaces.
+bool edge_of(const std::vector<double>& values) {
+  std::vector<PixelValue> pixels;
+  for (const double value : values) {
+    const auto grey = static_cast<float>(value);
+    pixels.push_back({grey, grey, grey, 1});
+  }
+  return is_passing_edge(pixels);
+}
+
+TEST(PassingEdge, OneJumpBetweenTwoLevelSides) {
+  EXPECT_TRUE(edge_of({0, 0, 0, 0, 0, 1, 1, 1, 1}));
+  EXPECT_TRUE(edge_of({0.5, 0.501, 0.502, 0.502, 0.503, 0.1, 0.1, 0.101, 0.102}));
+  EXPECT_TRUE(edge_of({0, 0, 0, 1, 0, 1, 1, 1, 1})) << "within rounding of the edge either side may show";
+}
+
+TEST(PassingEdge, CracksAndFlickersAreNone) {
+  EXPECT_FALSE(edge_of({0, 0, 0, 0, 0, 1, 0, 0, 0})) << "one view alone";
+  EXPECT_FALSE(edge_of({1, 1, 1, 1, 0, 1, 1, 1, 1})) << "a hole in the picture as it was";
+  EXPECT_FALSE(edge_of({0, 0, 0, 0, 0, 1, 1, 0, 0})) << "comes and goes";
+  EXPECT_FALSE(edge_of({0, 0, 0, 0, 0, 1, 1, 0, 1})) << "comes, goes and comes";
+  EXPECT_FALSE(edge_of({0, 0, 0, 0, 0, 0.5, 1, 1, 1})) << "a third value in between";
+  EXPECT_FALSE(edge_of({0, 0, 0, 0, 2, 1, 1, 1, 1})) << "the edge is drawn in a colour of neither side";
+  EXPECT_FALSE(edge_of({0, 0.2, 0.4, 0.45, 0.5, 0.55, 0.6, 0.8, 1})) << "a slope";
+  EXPECT_FALSE(edge_of({0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_FALSE(edge_of({0, 0, 0, 0, 0, NAN, 1, 1, 1}));
+  EXPECT_FALSE(edge_of({0, 1}));
+}
+
+TEST(PassingEdge, PassInProportion) {
+  EXPECT_EQ(edges_allowed(0), 4U);
+  EXPECT_EQ(edges_allowed(100), 20U);
+  EXPECT_LT(edges_allowed(48 * 48), 48U * 48U);
 }
 
 TEST(BoxChord, OfRaysThroughBesideAndWithin) {
