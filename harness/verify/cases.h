@@ -45,6 +45,10 @@ void order_around_eye(CaseRun& run);
 void stack_switch(CaseRun& run);
 void polygon_textures(CaseRun& run);
 void thick_slices(CaseRun& run);
+// isosurfaces.cpp
+void isosurface_plane(CaseRun& run);
+void isosurface_waves(CaseRun& run);
+void isosurface_on_levels(CaseRun& run);
 // agreement.cpp
 void agreement(CaseRun& run);
 
