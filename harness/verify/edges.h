@@ -1,6 +1,6 @@
-// Edges of opaque pictures under a moving camera. Where a scene shows an isosurface or a slice plane, the picture jumps
-// at silhouettes, and a method's own picture also where its samples begin to miss a thin part. A pixel that such an
-// edge passes changes sides however small the motion; a crack, a hole or a flicker does not: it comes and goes.
+// Edges of pictures under a moving camera. Isosurfaces, slice planes and the slices of shells end abruptly: the picture
+// jumps at silhouettes, and a method's own picture also where its samples begin to miss a thin part. A pixel that such
+// an edge passes changes sides however small the motion; a crack, a hole or a flicker does not: it comes and goes.
 #pragma once
 
 #include <array>
@@ -25,9 +25,7 @@ inline constexpr double kEdgeOpen = 4;
 bool is_passing_edge(std::span<const PixelValue> values);
 
 // Whether the picture of this scene jumps at edges at all.
-inline bool has_opaque_edges(const Scene& scene) {
-  return scene.display == Display::Isosurface || scene.display == Display::SlicePlane;
-}
+inline bool has_edges(const Scene& scene) { return scene.display != Display::Direct; }
 
 // Edges pass in proportion too: of `large` pixels that jump under a motion a hundred times as large a hundredth may,
 // and 20 times that; 4 by chance. A picture that jumps as a whole is no edge.

@@ -77,7 +77,7 @@ SensitivityFrames draw_frames(FrameSource& source, const View& view, double size
   return frames;
 }
 
-// Of a scene with opaque edges: the pixels of `row` that an edge passes, each followed along the direction that changes
+// Of a scene with edges: the pixels of `row` that an edge passes, each followed along the direction that changes
 // it most. None where more would be than edges pass in proportion.
 std::vector<bool> passed_by_edges(FrameSource& source, const View& view, double size, const SensitivityFrames& frames,
                                   const SensitivityRow& row) {
@@ -121,11 +121,11 @@ void add_rows(CaseRun& run, const Scene& scene, const Values& values, FrameSourc
   const SensitivityFrames frames = draw_frames(source, scene.views.front(), size);
   double worst = 0;
   SensitivityRow row = judge_sensitivity(frames, 0, worst);
-  if (!row.ok && has_opaque_edges(scene)) {
+  if (!row.ok && has_edges(scene)) {
     const std::vector<bool> edges = passed_by_edges(source, scene.views.front(), size, frames, row);
     row = judge_sensitivity(frames, 0, worst, edges);
     const auto passed = std::count(edges.begin(), edges.end(), true);
-    if (row.ok) row.reason = fmt::format("{} pixels left out, which an edge of the opaque picture passes", passed);
+    if (row.ok) row.reason = fmt::format("{} pixels left out, which an edge of the picture passes", passed);
   }
   row.key.experiment = "verify";
   row.key.scene = scene.name;

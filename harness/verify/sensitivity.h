@@ -22,7 +22,7 @@ struct SensitivityFrames {
   Image base;
   std::vector<Image> small_motion, large_motion;
 };
-// `edges`, by pixel: those that an edge of an opaque picture passes (edges.h), which are left out; empty: none.
+// `edges`, by pixel: those that an edge passes (edges.h), which are left out; empty: none.
 SensitivityRow judge_sensitivity(const SensitivityFrames& frames, int64_t view, double& worst,
                                  const std::vector<bool>& edges = {});
 
