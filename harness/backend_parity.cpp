@@ -1,8 +1,20 @@
 #include "harness/backend_parity.h"
 
+#include <algorithm>
+
 #include "harness/metrics/metrics.h"
 
 namespace volumark {
+
+namespace {
+
+bool draws_opaque(const Method& method) {
+  const std::vector<Display>& displays = method.info().displays;
+  return std::all_of(displays.begin(), displays.end(),
+                     [](Display display) { return display == Display::Isosurface || display == Display::SlicePlane; });
+}
+
+}  // namespace
 
 bool compares_backends(const Group& group) {
   return group.experiment->parity > 0 && group.method->target_format(group.values) == Format::RGBA32F;
@@ -13,6 +25,7 @@ std::vector<ParityRow> backend_parity(const Group& group, const std::string& var
   std::vector<ParityRow> out;
   ParityLimits limits;
   limits.difference = group.experiment->parity;
+  limits.opaque = draws_opaque(*group.method);
   const std::map<int, Image>* first = nullptr;
   const Cell* first_cell = nullptr;
   for (size_t i = 0; i < images.size(); ++i) {

@@ -28,7 +28,8 @@ TEST(Refusal, NamesAnEffectThatNoSettingSimulates) {
     const Values values = default_values(method->info().parameters);
     EXPECT_EQ(*missing_effect_reason(*method, Effects{.others = {"ground_fog"}}),
               "effect ground_fog: " + method->info().name + " does not simulate it");
-    EXPECT_THAT(*unsupported_reason(*method, scene, values, backend()), StartsWith("effect "));
+    const Scene shown = testing::showing(scene, method->info().displays.front());
+    EXPECT_THAT(*unsupported_reason(*method, shown, values, backend()), StartsWith("effect "));
   }
 }
 

@@ -173,6 +173,19 @@ TEST(Parity, SeparatesSilhouetteFromInterior) {
   EXPECT_FALSE(moved.agree);
 }
 
+TEST(Parity, OpaquePicturesHaveNoInterior) {
+  const Image a = grey(40, 50, 0.5f);
+  Image b = a;
+  std::fill_n(b.pixel(20, 20), 3, 0.9f);  // one surface before another, a pixel further: alpha does not show it
+  ParityLimits limits;
+  EXPECT_FALSE(parity(a, b, limits).agree);
+  limits.opaque = true;
+  EXPECT_TRUE(parity(a, b, limits).agree) << "1 of 2000";
+  std::fill_n(b.pixel(20, 30), 3, 0.9f);
+  std::fill_n(b.pixel(20, 40), 3, 0.9f);
+  EXPECT_FALSE(parity(a, b, limits).agree) << "3 of 2000";
+}
+
 TEST(Parity, NonFiniteNeverAgrees) {
   const Image a = grey(6, 6, 0.5f);
   Image b = a;
