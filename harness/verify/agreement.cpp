@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "harness/metrics/metrics.h"
 #include "harness/verify/cases.h"
 #include "harness/verify/scene_shelf.h"
+#include "scenes/shell.h"
 
 namespace volumark::hard_cases {
 namespace {
@@ -45,6 +48,24 @@ void compare(CaseRun& run, const std::string& scene, const Drawn& one, const Dra
   run.add_row(std::move(rim), &one.image, &other.image);
 }
 
+// Rasterizers snap corners to 1/256 of a pixel, each in its own way, and what a polygon interpolates moves with them.
+// Where a shell is so thin in the picture that this is a good part of a texel of its height, places differ by more than
+// the rounding of floats: no limit between backends is known there.
+void refuse_thin_shell(const Scene& scene, const View& view) {
+  constexpr double kSnap = 1. / 256, kTexels = 0.25;
+  if (!scene.shell) return;
+  const ShellBounds bounds = bounds_of(*scene.shell);
+  const double away = glm::distance(view.eye, 0.5 * (bounds.lo + bounds.hi));
+  const double half = view.perspective ? away * std::tan(0.5 * view.fov_y) : view.half_height;
+  const double pixel = 2 * half / kSize;
+  const double thickest = *std::max_element(scene.shell->thickness.begin(), scene.shell->thickness.end());
+  const double moved = kSnap * pixel / thickest * scene.shell->colours->size.z;
+  if (moved > kTexels)
+    throw NotApplicable(fmt::format(
+        "the shell is {:.2g} pixels thick: 1/256 of a pixel, to which corners snap, is {:.2g} texels of its height",
+        thickest / pixel, moved));
+}
+
 }  // namespace
 
 void agreement(CaseRun& run) {
@@ -57,6 +78,7 @@ void agreement(CaseRun& run) {
     }
     try {
       const View& view = entry.scene->views[entry.scene->views.size() > 1 ? 1 : 0];
+      refuse_thin_shell(*entry.scene, view);
       std::vector<Drawn> drawn;
       for (const auto& [id, device] : run.devices()) {
         const auto source = run.prepare(*entry.scene, run.scene_values(*entry.scene), kSize, kSize, *device);
