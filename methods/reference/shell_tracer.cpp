@@ -11,7 +11,7 @@
 
 #include "methods/reference/lighting.h"
 #include "methods/reference/quadrature.h"
-#include "methods/shell_slices/prisms.h"
+#include "scenes/prism_faults.h"
 
 namespace volumark {
 namespace {
@@ -205,9 +205,9 @@ ShellTracer::ShellTracer(const Scene& scene) : scene_(scene), shell_(shell_of(sc
   const std::vector<std::array<glm::dmat3, 6>> slopes =
       lit ? cotangents(shell_) : std::vector<std::array<glm::dmat3, 6>>(shell_.prisms());
   std::vector<Box> boxes;
-  // The methods' list says which prisms are left out, with the rounding of corners that they draw.
-  for (const auto& kept : shell_prisms(shell_).prisms) {
-    const size_t i = kept.triangle;
+  const std::vector<PrismFault> faults = prism_faults(shell_);
+  for (size_t i = 0; i < shell_.prisms(); ++i) {
+    if (faults[i] != PrismFault::None) continue;
     std::array<glm::dvec3, 6> corners;
     for (int k = 0; k < 6; ++k) corners[static_cast<size_t>(k)] = shell_.corner(i, k);
     prisms_.push_back({PrismMap(corners), shell_.texture[i], slopes[i]});

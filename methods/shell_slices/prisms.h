@@ -1,6 +1,6 @@
 // The prisms of a shell as its methods draw them (lensch2002, section 3). World coordinates are taken relative to the
 // shell's middle in double precision and only then rounded to float; a corner that prisms share is one corner here, the
-// same bits for all of them. Only prisms whose map keeps the sign of its Jacobian are in the list.
+// same bits for all of them. Only prisms without a fault (scenes/prism_faults.h) are in the list.
 #pragma once
 
 #include <array>
@@ -11,15 +11,6 @@
 #include "scenes/shell.h"
 
 namespace volumark {
-
-// The sign of the Jacobian of X(b, w) = sum_i b_i (lower_i + w (upper_i - lower_i)), if it keeps it over the prism: +1
-// or -1; 0 where it changes its sign or cannot be told from 0 by double arithmetic.
-//
-// The Jacobian is sum_i b_i N(w) . d_i with d_i = upper_i - lower_i and N the normal (not unit) of the triangle at
-// height w. It keeps its sign if the three quadratics N(w) . d_i keep theirs over [0, 1], and all the same. Corners
-// without thickness (d_i = 0) add nothing; there the Jacobian is 0 at the corner itself, which is allowed, unless no
-// corner has any thickness.
-int jacobian_sign(const std::array<glm::dvec3, 3>& lower, const std::array<glm::dvec3, 3>& upper);
 
 struct Prism {
   std::array<uint32_t, 3> position;  // of its corners, in the lists below

@@ -11,6 +11,7 @@
 #include "methods/shell_slices/prisms.h"
 #include "methods/shell_slices/section.h"
 #include "methods/shell_slices/shell_frame.h"
+#include "scenes/prism_faults.h"
 
 namespace volumark {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scenes/prism_faults.h"
 #include "tests/unit/shell_slices/hand_made.h"
 
 namespace volumark {
