@@ -8,10 +8,10 @@ namespace volumark {
 
 namespace {
 
-bool draws_opaque(const Method& method) {
+// Slice planes are opaque too, but no part of one hides another: alpha shows all their edges.
+bool draws_surfaces(const Method& method) {
   const std::vector<Display>& displays = method.info().displays;
-  return std::all_of(displays.begin(), displays.end(),
-                     [](Display display) { return display == Display::Isosurface || display == Display::SlicePlane; });
+  return std::all_of(displays.begin(), displays.end(), [](Display display) { return display == Display::Isosurface; });
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ std::vector<ParityRow> backend_parity(const Group& group, const std::string& var
   std::vector<ParityRow> out;
   ParityLimits limits;
   limits.difference = group.experiment->parity;
-  limits.opaque = draws_opaque(*group.method);
+  limits.hidden_edges = draws_surfaces(*group.method);
   const std::map<int, Image>* first = nullptr;
   const Cell* first_cell = nullptr;
   for (size_t i = 0; i < images.size(); ++i) {

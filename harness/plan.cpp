@@ -112,10 +112,9 @@ std::string command_of(const Experiment& experiment, const CellKey& key, const s
 }
 
 // The variants of a scene that are left of those that the experiment asks for.
-std::vector<std::string> chosen_variants(const Experiment& experiment, const std::string& scene,
-                                         const CellFilter& filter) {
+std::vector<std::string> chosen_variants(const Experiment& experiment, const Scene& scene, const CellFilter& filter) {
   if (!experiment.effects) return {""};
-  const std::vector<std::string> effects = effect_names(load_scene(scene).effects);
+  const std::vector<std::string> effects = effect_names(scene.effects);
   if (filter.variants.empty()) return effect_variants(effects);
   std::set<std::string> wanted;
   for (const std::string& variant : filter.variants) try {
@@ -216,8 +215,8 @@ std::vector<Group> plan_cells(const std::vector<Experiment>& experiments, const 
   for (const Experiment& experiment : experiments)
     for (const std::string& scene : experiment.scenes) {
       if (!passes(filter.scenes, scene_name(scene))) continue;
-      const std::vector<std::string> variants = chosen_variants(experiment, scene, filter);
       const Scene parsed = load_scene(scene);
+      const std::vector<std::string> variants = chosen_variants(experiment, parsed, filter);
       for (const ExperimentMethod& method : experiment.methods) {
         if (!passes(filter.methods, method.method->info().name)) continue;
         if (const auto reason = display_reason(*method.method, parsed)) {

@@ -69,9 +69,9 @@ struct ParityLimits {
   double silhouette_span = 0.1;
   double difference = 2e-3;           // allowed in any interior pixel
   double silhouette_fraction = 1e-3;  // share of the silhouette's pixels that may exceed `difference`
-  // Pictures of opaque surfaces have edges that alpha does not show, one surface before another: all pixels count as at
-  // a silhouette.
-  bool opaque = false;
+  // Pictures of isosurfaces have edges that alpha does not show, one part before another: all pixels count as at a
+  // silhouette.
+  bool hidden_edges = false;
 };
 struct Parity {
   int64_t interior_pixels = 0, interior_over = 0;

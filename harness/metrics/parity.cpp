@@ -38,8 +38,9 @@ Parity parity(const Image& a, const Image& b, const ParityLimits& limits) {
     for (int x = 0; x < a.width; ++x) {
       const double d = difference(a.pixel(x, y), b.pixel(x, y));
       // A comparison with NaN is false: a pixel that is not finite counts as interior, where nothing excuses it.
-      const bool silhouette = std::isfinite(d) && (limits.opaque || alpha_span(a, x, y) > limits.silhouette_span ||
-                                                   alpha_span(b, x, y) > limits.silhouette_span);
+      const bool silhouette =
+          std::isfinite(d) && (limits.hidden_edges || alpha_span(a, x, y) > limits.silhouette_span ||
+                               alpha_span(b, x, y) > limits.silhouette_span);
       if (silhouette) {
         ++out.silhouette_pixels;
         out.silhouette_over += d > limits.difference;

@@ -173,13 +173,13 @@ TEST(Parity, SeparatesSilhouetteFromInterior) {
   EXPECT_FALSE(moved.agree);
 }
 
-TEST(Parity, OpaquePicturesHaveNoInterior) {
+TEST(Parity, PicturesOfSurfacesHaveNoInterior) {
   const Image a = grey(40, 50, 0.5f);
   Image b = a;
   std::fill_n(b.pixel(20, 20), 3, 0.9f);  // one surface before another, a pixel further: alpha does not show it
   ParityLimits limits;
   EXPECT_FALSE(parity(a, b, limits).agree);
-  limits.opaque = true;
+  limits.hidden_edges = true;
   EXPECT_TRUE(parity(a, b, limits).agree) << "1 of 2000";
   std::fill_n(b.pixel(20, 30), 3, 0.9f);
   std::fill_n(b.pixel(20, 40), 3, 0.9f);
