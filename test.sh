@@ -7,7 +7,7 @@ scripts/setup.sh scripts/packages-test.txt
 export VOLUMARK_REQUIRE_DATA=1 # the real volumes have just been fetched: without them their tests fail
 
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz -j "$(nproc)" --target fuzz_nrrd fuzz_nifti fuzz_scene
+cmake --build --preset fuzz -j "$(nproc)" --target fuzz
 ctest --test-dir build/fuzz -L fuzz -j "$(nproc)" --output-on-failure --no-tests=error
 
 cmake --preset ci >/dev/null
